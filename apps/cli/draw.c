@@ -234,6 +234,7 @@ static lmn_status draw_sheet(draw_session *s, const lmn_scene *scene, lmn_sheet 
     d.line_group = v->line_group >= 0 ? groups[v->line_group] : 0;
     d.centre_lines = v->centre_lines;
     d.loose_hatch = v->loose_hatch;
+    d.threads = v->threads;
     d.sections = joined[0];
     d.details = joined[1];
     d.auxiliary = joined[2];

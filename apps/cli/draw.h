@@ -12,7 +12,7 @@ typedef struct draw_values {
     const char   *output, *format, *look, *select, *cut, *frames, *background, *maps, *report;
     const char   *clip, *motion, *poses;
     const char   *expressions, *interval; /* of depict alone, with `explain` */
-    const char   *page, *scale, *unit, *views, *title;
+    const char   *page, *scale, *unit, *views, *title, *threads;
     word_list     sets, sections, details, auxiliary, fields;
     option_size   size;
     option_number time, seed, samples, dpi, smooth;

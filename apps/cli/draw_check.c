@@ -146,6 +146,7 @@ static int check_vectors(const draw_session *s)
                       {"field", v->fields.count > 0},
                       {"line-group", v->line_group >= 0},
                       {"centre-lines", v->centre_lines},
+                      {"threads", v->threads != NULL},
                       {"loose-hatch", v->loose_hatch},
                       {"section", v->sections.count > 0},
                       {"detail", v->details.count > 0},

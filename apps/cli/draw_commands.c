@@ -115,6 +115,10 @@ static const option options[] = {
      .choices = line_groups},
     {"centre-lines", 0, OPTION_FLAG, AT(centre_lines), NULL,
      "Of vector drawings in parallel projection: axes of cylinders, and pitch circles."},
+    {"threads", 0, OPTION_TEXT, AT(threads), "SELECTOR",
+     "Of vector drawings in parallel projection: parts whose threads are drawn by their symbol (ISO 6410-1), '*' for "
+     "all: "
+     "modelled ones, and cylinders of parts called M8 and the like. Default: as they are modelled."},
     {"loose-hatch", 0, OPTION_FLAG, AT(loose_hatch), NULL,
      "Of vector drawings: hatching of cut faces as one line after the other, for programs that know no patterns. "
      "Default: patterns where a face is seen as a whole."},

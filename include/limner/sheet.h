@@ -45,11 +45,13 @@ typedef struct lmn_sheet_desc {
     const char *fields;       /* "creator=A. Smith;number=4711": of the title block; NULL: none */
     bool        loose_hatch;  /* hatching of cut faces as one line after the other, for programs that know no patterns;
                                  else faces that are seen as a whole have a pattern. Plotters have lines. Since 0.1 */
+    const char *threads; /* parts whose threads are drawn by their symbol (ISO 6410-1), a selector, "*": all; modelled
+                            ones, and of parts called "M8" and the like those cylinders; NULL: none. Since 0.1 */
 } lmn_sheet_desc;
 #define LMN_SHEET_DESC_INIT                                                                                            \
     {                                                                                                                  \
         sizeof(lmn_sheet_desc), NULL, NULL, NULL, NULL, LMN_THIRD_ANGLE, NULL, false, false, false, false, false,      \
-            0.02, 0, false, NULL, NULL, NULL, NULL, false                                                              \
+            0.02, 0, false, NULL, NULL, NULL, NULL, false, NULL                                                        \
     }
 
 /* Do the look's surfaces need pixels, which lie below the lines as a picture? When not, lmn_draw_sheet needs no

@@ -7,7 +7,7 @@ static const double pi = 3.14159265358979323846;
 /* Of a long-dashed dotted line, in widths. */
 static const double long_dash = 24, gap = 3, dot = 0.5;
 static const double shortened_most = 0.4; /* short lines have shorter dashes, down to this, before they are unbroken */
-enum { ARC_STEPS = 180, POINTS_MOST = ARC_STEPS + 1 };
+enum { ARC_STEPS = 180, POINTS_MOST = 193 };
 
 bool draft_group_is_known(double wide)
 {
@@ -93,6 +93,19 @@ void draft_line(const draft_view *v, const double a[2], const double b[2], doubl
 {
     const double points[2][2] = {{a[0], a[1]}, {b[0], b[1]}};
     put_line(v, points, 2, width, false);
+}
+
+void draft_polyline(const draft_view *v, const double (*points)[2], size_t count, double width, bool hidden)
+{
+    double length = 0, dash = DRAFT_HIDDEN_DASH * width, period = dash + DRAFT_HIDDEN_GAP * width;
+    for (size_t i = 1; i < count; i++)
+        length += hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]);
+    put_line(v, points, count, width, false);
+    double times = fmax(round((length - dash) / period), 1), scale = length / (times * period + dash);
+    if (hidden && scale >= shortened_most) {
+        const float lengths[2] = {(float)(dash * scale), (float)(DRAFT_HIDDEN_GAP * width * scale)};
+        sheet_dash_path(v->page, lengths, 2, 0);
+    }
 }
 
 void draft_arc(const draft_view *v, const double centre[2], double radius, double from, double sweep, double width)

@@ -37,6 +37,8 @@ void draft_chain_line(const draft_view *v, const double (*points)[2], size_t cou
 /* The same around a whole circle. */
 void draft_chain_circle(const draft_view *v, const double centre[2], double radius, double width);
 void draft_line(const draft_view *v, const double a[2], const double b[2], double width);
+/* The same through several places, at most 193; dashed as hidden lines are, if it is long enough. */
+void draft_polyline(const draft_view *v, const double (*points)[2], size_t count, double width, bool hidden);
 /* Part of a circle, angles from x to y of the sheet. */
 void draft_arc(const draft_view *v, const double centre[2], double radius, double from, double sweep, double width);
 /* A filled arrowhead of 15 degrees (ISO 129-1) with its tip at a place, pointing along a unit direction. */

@@ -23,6 +23,10 @@
 #define OVERLAP        0.7f
 /* Strokes that are alike and as close become one. */
 #define GAP 1.0f
+/* Ends that are farther apart come as near in the middle, each at its own depth, and the lines bend to it over so much:
+ * a long straight line that leant as a whole would not lie where it was found any more. */
+#define MEET_LEAST 0.05f
+#define BEND       5.0f
 /* Sharp lines whose ends are closer than this have been ended there, at a corner. */
 #define TOUCH 0.02f
 /* How much of a stroke says which way its end points. */
@@ -371,13 +375,71 @@ static void put_marks(joined *out, const joiner *j, uint32_t entry, float from, 
     }
 }
 
-/* Appends a stroke's points, the last first when it is entered at its last end. The first one is left out where it
- * only repeats the position that has been reached. */
-static void put_points(joined *out, const stroke_set *set, uint32_t entry, bool goes_on)
+static const stroke_point *point_from(const stroke_set *set, uint32_t entry, uint32_t i)
 {
     const stroke *s = &set->strokes[entry / 2];
+    return &set->points[s->first + (entry & 1 ? s->count - 1 - i : i)];
+}
+
+/* The point between two, a fraction of the way; nothing finer is known of what follows it. */
+static stroke_point point_between(const joiner *j, const stroke_point *p, const stroke_point *q, float f)
+{
+    stroke_point out = *p;
+    out.x += f * (q->x - p->x);
+    out.y += f * (q->y - p->y);
+    out.depth =
+        j->orthographic ? p->depth + f * (q->depth - p->depth) : 1 / (1 / p->depth + f * (1 / q->depth - 1 / p->depth));
+    out.weight += f * (q->weight - p->weight);
+    for (int k = 0; k < 2; k++)
+        out.aside[k] += f * (q->aside[k] - p->aside[k]);
+    out.fine_count = 0;
+    return out;
+}
+
+/* Puts the place at which a line that goes from `end` to `next` begins to bend, if it is long enough and straight. */
+static bool put_bend(joined *out, const joiner *j, const stroke_point *end, const stroke_point *next)
+{
+    float length = hypotf(next->x - end->x, next->y - end->y);
+    if (length < 2 * BEND || end->fine_count || next->fine_count)
+        return false;
+    out->points[out->point_count++] = point_between(j, end, next, BEND / length);
+    return true;
+}
+
+/* What has been reached goes on at a stroke's first point, which is somewhere else. */
+static void put_meeting(joined *out, const joiner *j, uint32_t entry, float gap)
+{
+    const stroke_point *own = point_from(j->set, entry, 0), *next = point_from(j->set, entry, 1);
+    stroke_point        reached = out->points[--out->point_count], before = reached;
+    if (hypotf(own->aside[0] - reached.aside[0], own->aside[1] - reached.aside[1]) > MEET_LEAST) {
+        out->point_count++; /* each stands for a line of its own: both stay */
+        out->points[out->point_count++] = *own;
+        return;
+    }
+    if (out->point_count > out->strokes[out->stroke_count - 1].first) {
+        before = out->points[out->point_count - 1];
+        put_bend(out, j, &reached, &before);
+    }
+    float shift = 0.5f * (1 - MEET_LEAST / gap);
+    for (int k = 0; k < 2; k++) {
+        const stroke_point *from = k ? own : &reached, *to = k ? &reached : own;
+        stroke_point       *met = &out->points[out->point_count++];
+        *met = *from;
+        met->x += shift * (to->x - from->x);
+        met->y += shift * (to->y - from->y);
+    }
+    put_bend(out, j, own, next);
+}
+
+/* Appends a stroke's points, the last first when it is entered at its last end. `gap`: how far it begins from the
+ * position that has been reached, if it goes on from there. */
+static void put_points(joined *out, const joiner *j, uint32_t entry, bool goes_on, float gap)
+{
+    const stroke *s = &j->set->strokes[entry / 2];
+    if (goes_on && gap > MEET_LEAST)
+        put_meeting(out, j, entry, gap);
     for (uint32_t i = goes_on ? 1 : 0; i < s->count; i++)
-        out->points[out->point_count++] = set->points[s->first + (entry & 1 ? s->count - 1 - i : i)];
+        out->points[out->point_count++] = *point_from(j->set, entry, i);
 }
 
 /* Arcs of the strokes of a chain from `first` on, gaps counted. */
@@ -422,7 +484,7 @@ static void put_linked(joined *out, joiner *j, uint32_t entry, uint8_t *used)
             out->strokes[out->stroke_count++] = s;
         }
         id = piece->id < id ? piece->id : id;
-        put_points(out, j->set, at, goes_on);
+        put_points(out, j, at, goes_on, gap);
         put_marks(out, j, at, arc + gap, chain);
         arc += gap + j->set->points[piece->first + piece->count - 1].arc - j->set->points[piece->first].arc;
         stroke *s = &out->strokes[out->stroke_count - 1];
@@ -451,15 +513,16 @@ static void put_joined(joined *out, joiner *j, uint32_t entry, uint8_t *used)
     }
     stroke s = j->set->strokes[entry / 2];
     s.first = (uint32_t)out->point_count;
-    put_points(out, j->set, entry & ~1u, false);
+    put_points(out, j, entry & ~1u, false, 0);
     out->strokes[out->stroke_count++] = s;
     used[entry / 2] = 1;
 }
 
 static bool open_joined(joined *out, const stroke_set *set)
 {
+    /* Lines that bend to where they meet have points more. */
     *out = (joined){.strokes = mem_alloc((set->stroke_count + 1) * sizeof(stroke)),
-                    .points = mem_alloc((set->point_count + 1) * sizeof(stroke_point))};
+                    .points = mem_alloc((set->point_count + 4 * set->stroke_count + 1) * sizeof(stroke_point))};
     return out->strokes && out->points;
 }
 

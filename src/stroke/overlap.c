@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 
@@ -17,6 +18,8 @@
 #define AGAINST 0.85f
 /* Over so much on either side the lines bend to where they meet, if they are as long. */
 #define BEND 5.0f
+/* Half of what is left between them. */
+#define CRUMB 0.04f
 /* How much of a line says which way its end points. */
 #define REACH 6.0f
 /* Ends that are as near as this are one corner. */
@@ -43,7 +46,7 @@ typedef struct trimmer {
     loose_end         *ends; /* by cells */
     size_t             count;
     end_pair          *pairs;
-    size_t             pair_count, pair_capacity;
+    size_t             pair_count, pair_capacity, point_capacity;
 } trimmer;
 
 static const stroke_point *point_from(const stroke_set *set, uint32_t number, uint32_t i)
@@ -193,42 +196,79 @@ static stroke_point place_at(const stroke_set *set, uint32_t number, float along
         {p->aside[0] + f * (q->aside[0] - p->aside[0]), p->aside[1] + f * (q->aside[1] - p->aside[1])}};
 }
 
-/* Takes off what is nearer to an end than that, and lets the stroke end elsewhere instead. */
-static void end_at(stroke_set *set, uint32_t number, float cut, stroke_point place)
+/* Takes off what is nearer to an end than that, and lets the stroke end elsewhere instead. It bends to there from
+ * where `straight` is; NULL: from its next point on. */
+static bool end_at(trimmer *t, uint32_t number, float cut, const stroke_point *place, const stroke_point *straight)
 {
-    stroke  *s = &set->strokes[number / 2];
-    float    begin = point_from(set, number, 0)->arc;
-    uint32_t gone = 1;
-    while (gone + 2 < s->count && fabsf(point_from(set, number, gone)->arc - begin) < cut)
+    stroke_set *set = t->set;
+    stroke     *s = &set->strokes[number / 2];
+    float       begin = point_from(set, number, 0)->arc;
+    uint32_t    gone = 1, ends = straight ? 2 : 1;
+    while (gone + 1 < s->count && fabsf(point_from(set, number, gone)->arc - begin) < cut)
         gone++;
-    s->first += number & 1 ? 0 : gone - 1;
-    s->count -= gone - 1;
-    set->points[s->first + (number & 1 ? s->count - 1 : 0)] = place;
+    if (gone < ends) { /* there is no room where it is */
+        if (!mem_grow((void **)&set->points, &t->point_capacity, set->point_count + s->count + 1, sizeof *set->points))
+            return false;
+        uint32_t first = (uint32_t)set->point_count + (number & 1 ? 0 : 1);
+        memcpy(&set->points[first], &set->points[s->first], s->count * sizeof *set->points);
+        s->first = first - (number & 1 ? 0 : 1);
+        set->point_count += ++s->count;
+    } else {
+        s->first += number & 1 ? 0 : gone - ends;
+        s->count -= gone - ends;
+    }
+    for (uint32_t i = 0; i < ends; i++)
+        set->points[s->first + (number & 1 ? s->count - 1 - i : i)] = i ? *straight : *place;
+    return true;
+}
+
+/* Ends a stroke at a place beside it, in the middle of an overlap. */
+static bool bend_to(trimmer *t, uint32_t number, float overlap, const stroke_point *own, stroke_point place)
+{
+    stroke_point straight = place_at(t->set, number, overlap / 2 + BEND);
+    bool         bends = length_of(t->set, number) > overlap / 2 + 2 * BEND;
+    place.aside[0] = own->aside[0] + place.x - own->x;
+    place.aside[1] = own->aside[1] + place.y - own->y;
+    place.arc = own->arc;
+    place.weight = own->weight;
+    return end_at(t, number, overlap / 2 + BEND, &place, bends ? &straight : NULL);
+}
+
+/* The ends meet but for a crumb, so that each still says what line it stands for. */
+static bool trim_pair(trimmer *t, const end_pair *pair)
+{
+    const loose_end *ends[2] = {&t->ends[pair->a], &t->ends[pair->b]};
+    stroke_point     own[2], place;
+    for (int k = 0; k < 2; k++)
+        own[k] = place_at(t->set, ends[k]->number, pair->overlap / 2);
+    bool good = true;
+    for (int k = 0; k < 2 && good; k++) {
+        place = own[k];
+        place.x = 0.5f * (own[0].x + own[1].x) - CRUMB * ends[k]->out_x;
+        place.y = 0.5f * (own[0].y + own[1].y) - CRUMB * ends[k]->out_y;
+        good = bend_to(t, ends[k]->number, pair->overlap, &own[k], place);
+    }
+    return good;
 }
 
 /* Cuts both ends of each pair, the nearest first, each end once. */
 static bool trim_pairs(trimmer *t, uint32_t (*cut)[2], size_t *count)
 {
     uint8_t *taken = mem_calloc(t->count + 1, 1);
+    bool     good = true;
     if (t->pair_count)
         qsort(t->pairs, t->pair_count, sizeof *t->pairs, compare_pairs);
-    for (size_t i = 0; i < t->pair_count && taken; i++) {
+    for (size_t i = 0; i < t->pair_count && taken && good; i++) {
         const end_pair *pair = &t->pairs[i];
-        uint32_t        a = t->ends[pair->a].number, b = t->ends[pair->b].number;
         if (taken[pair->a] || taken[pair->b])
             continue;
         taken[pair->a] = taken[pair->b] = 1;
-        stroke_point p = place_at(t->set, a, pair->overlap / 2), q = place_at(t->set, b, pair->overlap / 2);
-        p.x = q.x = 0.5f * (p.x + q.x);
-        p.y = q.y = 0.5f * (p.y + q.y);
-        p.depth = q.depth = 0.5f * (p.depth + q.depth);
-        end_at(t->set, a, pair->overlap / 2 + BEND, p);
-        end_at(t->set, b, pair->overlap / 2 + BEND, q);
-        cut[*count][0] = a;
-        cut[(*count)++][1] = b;
+        cut[*count][0] = t->ends[pair->a].number;
+        cut[(*count)++][1] = t->ends[pair->b].number;
+        good = trim_pair(t, pair);
     }
     mem_free(taken);
-    return taken != NULL;
+    return taken && good;
 }
 
 lmn_status strokes_trim(stroke_set *set, const stroke_view *v, uint32_t (**cut)[2], size_t *count, lmn_error *error)

@@ -115,6 +115,48 @@ void vector_hide_turns(stroke_scene *scene, const draft_extra *extra)
     }
 }
 
+/* Is a face seen exactly from the side? Then it is a matter of rounding whether it looks to the eye. */
+static bool is_edge_on(const edge_mesh *m, const mat4 *world, uint32_t face, const double eye[3])
+{
+    const vec3 n = m->normals[face];
+    double     out[3];
+    for (int row = 0; row < 3; row++)
+        out[row] = world->m[row] * (double)n.x + world->m[4 + row] * (double)n.y + world->m[8 + row] * (double)n.z;
+    return fabs(vector3_dot(out, eye)) < 1e-4 * vector3_length(out);
+}
+
+void vector_settle_rims(stroke_scene *scene, const draft_extra *extra)
+{
+    for (size_t i = 0; i < scene->item_count; i++) {
+        edge_mesh *m = &scene->meshes[scene->items[i].mesh];
+        for (uint32_t k = 0; k < m->edge_count && m->cap_count; k++) {
+            mesh_edge *e = &m->edges[k];
+            for (int side = 0; side < 2; side++) {
+                const uint32_t  wall = e->face[1 - side];
+                const edge_cap *cap = cap_of(m, e->face[side]);
+                if (!cap || cap_of(m, wall) || fabs(vector3_dot(cap->normal, extra->axes[2])) < 0.99)
+                    continue;
+                if (wall == EDGE_NO_FACE) { /* what is cut has more corners here, and a border of its own */
+                    e->flags = EDGE_QUIET;
+                    e->face[1 - side] = e->face[side];
+                    break;
+                }
+                if (!is_edge_on(m, &scene->items[i].world, wall, extra->axes[2]))
+                    continue;
+                if (side) { /* the face that passes it forwards stands first */
+                    const uint32_t first = e->vertex[0];
+                    e->vertex[0] = e->vertex[1];
+                    e->vertex[1] = first;
+                }
+                e->face[0] = e->face[side];
+                e->face[1] = EDGE_NO_FACE;
+                e->flags = EDGE_BORDER;
+                break;
+            }
+        }
+    }
+}
+
 static void nearest_face(const stroke_scene *scene, size_t item, const double at[3], double *least, double out[3])
 {
     const edge_mesh *m = &scene->meshes[scene->items[item].mesh];
@@ -165,19 +207,19 @@ lmn_status vector_face_normal(const vector_job *j, const double at[3], double ou
 
 lmn_status vector_find_axes(vector_job *j, lmn_error *error)
 {
-    if (!j->wanted->centre_lines)
+    if (!j->wanted->centre_lines && !j->threaded)
         return LMN_OK;
-    lmn_status status = LMN_OK;
-    if (j->section.cut.cell_count) {
-        stroke_scene whole = {0};
+    stroke_scene whole = {0};
+    lmn_status   status = LMN_OK;
+    if (j->section.cut.cell_count)
         status = stroke_scene_create(&whole, &j->pose, j->stroked, j->plan.crease_angle, NULL, NULL, error);
-        if (status == LMN_OK)
-            status = draft_cylinders_find(&j->cylinders, &whole, error);
-        stroke_scene_release(&whole);
-    } else {
-        status = draft_cylinders_find(&j->cylinders, &j->strokes, error);
-    }
-    return status == LMN_OK ? draft_pitches_find(&j->pitches, &j->cylinders, error) : status;
+    const stroke_scene *uncut = j->section.cut.cell_count ? &whole : &j->strokes;
+    if (status == LMN_OK)
+        status = draft_cylinders_find(&j->cylinders, uncut, error);
+    if (status == LMN_OK && j->threaded)
+        status = vector_find_threads(j, uncut, error);
+    stroke_scene_release(&whole);
+    return status == LMN_OK && j->wanted->centre_lines ? draft_pitches_find(&j->pitches, &j->cylinders, error) : status;
 }
 
 enum { AROUND = 12, ALONG = 3, SAMPLES = AROUND * ALONG };
@@ -226,7 +268,7 @@ static bool is_shown(const draft_cylinder *c, const stroke_view *view, const cut
     return any;
 }
 
-static bool draws_hidden(const vector_job *j, uint32_t part)
+bool vector_draws_hidden(const vector_job *j, uint32_t part)
 {
     stroke_options options;
     stroke_style   style;
@@ -269,7 +311,7 @@ lmn_status vector_put_centres(vector_job *j, const vector_view *v, const stroke_
                               uint32_t group, lmn_error *error)
 {
     size_t count = j->cylinders.count;
-    if (!count || !v->camera.orthographic)
+    if (!count || !v->camera.orthographic || !j->wanted->centre_lines)
         return LMN_OK;
     bool *shown = mem_calloc(count, sizeof *shown);
     if (!shown)
@@ -277,7 +319,7 @@ lmn_status vector_put_centres(vector_job *j, const vector_view *v, const stroke_
     for (size_t i = 0; i < count; i++) {
         const draft_cylinder *c = &j->cylinders.items[i];
         bool                  whole = j->spared && c->part > 0 && j->spared[c->part - 1];
-        shown[i] = is_shown(c, view, whole ? NULL : cut, !j->cut_open && draws_hidden(j, c->part));
+        shown[i] = is_shown(c, view, whole ? NULL : cut, !j->cut_open && vector_draws_hidden(j, c->part));
     }
     draft_view d =
         vector_drafting_view(j, v, sheet_add_group(&j->out->page, (int32_t)group, "centre lines", "centre", 0));

@@ -148,7 +148,7 @@ static double choose_scale(const vector_layout *how, plan_of_page *p, vector_vie
     double beside = shrink(how, p, views, count, sizes, scale, false),
            below = shrink(how, p, views, count, sizes, scale, true);
     p->below = below > beside * 1.001;
-    scale = fmax(beside, below);
+    scale = p->below ? below : beside;
     return how->usual ? usual_that_fits(how, p, views, count, sizes, scale) : scale;
 }
 

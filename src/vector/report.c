@@ -50,6 +50,8 @@ static json_t *strokes_json(const lmn_sheet *s)
         json_object_set_new(out, "hatch_lines", json_integer((json_int_t)s->hatches));
     if (s->centres)
         json_object_set_new(out, "centre_lines", json_integer((json_int_t)s->centres));
+    if (s->threads)
+        json_object_set_new(out, "thread_lines", json_integer((json_int_t)s->threads));
     if (s->marks)
         json_object_set_new(out, "marks", json_integer((json_int_t)s->marks));
     return out;

@@ -463,6 +463,8 @@ static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink
     if (status == LMN_OK)
         status = draw_lines(j, view, &camera, ink, error);
     if (status == LMN_OK)
+        status = vector_put_threads(j, v, view, cut, ink->group, error);
+    if (status == LMN_OK)
         status = vector_put_centres(j, v, view, cut, ink->group, error);
     if (status == LMN_OK && j->out->has_traces && j->pose.at_rest)
         trace_warn(&j->out->traces, &j->out->warnings);
@@ -602,6 +604,7 @@ static lmn_status draw_section(vector_job *j, const vector_view *v, lmn_error *e
             stroke_scene_create_cut(&scene, &j->pose, j->stroked, j->plan.crease_angle, 0, &cut, report_part, j, error);
     if (status == LMN_OK) {
         vector_hide_turns(&scene, v->extra);
+        vector_settle_rims(&scene, v->extra);
         j->shown = &scene;
         j->cut_open = v->extra;
         j->spared = own.spared;
@@ -771,6 +774,9 @@ static void end_job(vector_job *j)
     section_release(&j->section);
     draft_cylinders_release(&j->cylinders);
     draft_pitches_release(&j->pitches);
+    draft_threads_release(&j->threads);
+    draft_thread_scene_release(&j->smooth);
+    mem_free(j->threaded);
     plan_release(&j->plan);
     swept_boxes_release(&j->swept);
     pose_deformation_release(&j->deformation);
@@ -806,6 +812,8 @@ lmn_status vector_draw(lmn_sheet **out, const lmn_scene *scene, const lmn_look *
                          look->name ? look->name : "");
         status = round_scene_find(&j.scene, &j.round, scene, look, error);
     }
+    if (status == LMN_OK)
+        status = vector_smooth_threads(&j, error);
     if (status == LMN_OK)
         status = prepare(&j, error);
     if (status == LMN_OK)

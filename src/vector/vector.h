@@ -49,6 +49,7 @@ struct lmn_sheet {
     uint64_t       dots, marks; /* that lie on surfaces: dots, strokes */
     uint64_t       hatches;     /* lines on cut faces */
     uint64_t       centres;     /* centre lines and pitch circles */
+    uint64_t       threads;     /* lines of their symbols */
     bool           verified;
     stroke_check   check;
 };

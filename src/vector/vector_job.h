@@ -4,6 +4,7 @@
 
 #include "draft/centres.h"
 #include "draft/cylinder_fit.h"
+#include "draft/threads.h"
 #include "plan/round_scene.h"
 #include "plan/deformation.h"
 #include "plan/round_scene.h"
@@ -40,7 +41,10 @@ typedef struct vector_job {
     const bool           *spared;    /* per part: what the section at hand leaves whole; NULL: none */
     draft_cylinders       cylinders; /* of all that is drawn, uncut; with centre lines */
     draft_pitches         pitches;
-    stroke_scene          as_is; /* the same where `strokes` is refined and marks lie on what is not; else empty */
+    draft_thread_scene    smooth;   /* what `scene` is where threads are drawn by their symbol */
+    draft_threads         threads;  /* these, in the world */
+    bool                 *threaded; /* per part: its threads are drawn so; NULL: none */
+    stroke_scene          as_is;    /* the same where `strokes` is refined and marks lie on what is not; else empty */
     double                begun, fraction, reported; /* progress: of the stage at hand, and the most that was told */
 } vector_job;
 
@@ -62,6 +66,9 @@ void vector_cut_text(const vector_job *j, const draft_extra *extra, char *out, s
 lmn_status vector_section(section *out, const vector_job *j, const draft_extra *extra, lmn_error *error);
 /* Where a section turns there is no edge: lines of cut faces that are seen from the side are none. */
 void vector_hide_turns(stroke_scene *scene, const draft_extra *extra);
+/* Rims of cut faces are borders where what is cut is seen exactly from the side, all along: else they would be outlines
+ * and creases by turns, as rounding has it. */
+void vector_settle_rims(stroke_scene *scene, const draft_extra *extra);
 /* Where the face nearest to a position looks. Errors: LMN_USAGE (there are none), LMN_MEMORY. */
 lmn_status vector_face_normal(const vector_job *j, const double at[3], double out[3], lmn_error *error);
 /* Puts what the headers of the files say into a title block, where the caller says nothing. Errors: LMN_MEMORY. */
@@ -71,6 +78,15 @@ lmn_status vector_find_axes(vector_job *j, lmn_error *error);
 /* Centre lines of a view. `cut`: what is not there in it. Errors: LMN_MEMORY. */
 lmn_status vector_put_centres(vector_job *j, const vector_view *v, const stroke_view *view, const cut *cut,
                               uint32_t group, lmn_error *error);
+/* Makes the threads smooth that are drawn by their symbol. Errors: LMN_USAGE (selector), LMN_MEMORY, LMN_CANCELLED. */
+lmn_status vector_smooth_threads(vector_job *j, lmn_error *error);
+/* Where threads are, once cylinders are known. `scene`: uncut. Errors: LMN_MEMORY. */
+lmn_status vector_find_threads(vector_job *j, const stroke_scene *scene, lmn_error *error);
+/* Their symbols on a view. `cut`: what is not there in it. Errors: LMN_MEMORY. */
+lmn_status vector_put_threads(vector_job *j, const vector_view *v, const stroke_view *view, const cut *cut,
+                              uint32_t group, lmn_error *error);
+/* Does the rule of a part draw hidden lines? `part`: id. */
+bool vector_draws_hidden(const vector_job *j, uint32_t part);
 /* Sections that lie turned in a view. Errors: LMN_USAGE, LMN_MEMORY, LMN_CANCELLED. */
 lmn_status vector_put_revolved(vector_job *j, const vector_view *v, uint32_t group, lmn_error *error);
 /* Once all views are drawn: cutting planes, circles around details, arrows, letters. */

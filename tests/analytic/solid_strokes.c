@@ -352,8 +352,9 @@ static double cpu_seconds(void)
 }
 
 typedef struct total {
-    double worst_missing, worst_false, seconds;
-    int    files, over, other;
+    double   worst_missing, worst_false, seconds;
+    int      files, over, other;
+    uint64_t samples, unseen; /* of stroke_verify; those that it does not see as they were found */
 } total;
 
 /* Per cent of the operands' corners on lines that are no corners of the exact mesh: other fonts, other divisions of
@@ -418,6 +419,10 @@ static void compare_view(const char *name, const exact_mesh *m, const stroke_sce
     sum->worst_false = fmax(sum->worst_false, strange < 1 ? wrong : 0);
     sum->over += strange < 1 && (missing > 0.1 || wrong > 0.1);
     sum->other += strange >= 1;
+    sum->samples += check.samples;
+    sum->unseen += check.wrong;
+    check_that("strokes", check.wrong == 0, "%s: %llu of %llu samples are not as rays see them", name,
+               (unsigned long long)check.wrong, (unsigned long long)check.samples);
     sum->seconds += made + took;
     sum->files++;
     free(truth->items);
@@ -497,7 +502,10 @@ int main(int argc, char **argv)
             compare_file(folder, name, stl, &sum);
     }
     json_decref(all);
-    printf("%d views, %d of another solid, %d over the limit, worst missing %.3f %%, worst false %.3f %%, %.2f CPU s\n",
-           sum.files, sum.other, sum.over, sum.worst_missing, sum.worst_false, sum.seconds);
-    return sum.over ? 1 : 0;
+    printf("%d views, %d of another solid, %d over the limit, worst missing %.3f %%, worst false %.3f %%, verify %llu "
+           "of %llu, "
+           "%.2f CPU s\n",
+           sum.files, sum.other, sum.over, sum.worst_missing, sum.worst_false, (unsigned long long)sum.unseen,
+           (unsigned long long)sum.samples, sum.seconds);
+    return sum.over || sum.unseen ? 1 : 0;
 }

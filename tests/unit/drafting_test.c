@@ -198,6 +198,78 @@ static void test_tangent_edges(void **state)
 }
 #endif
 
+#ifdef LIMNER_HAVE_STEP
+typedef struct near_line {
+    double at[2], least;
+} near_line;
+
+static void measure_line(const sheet *s, const sheet_item *item, const sheet_path *path, void *user)
+{
+    near_line *n = user;
+    (void)item;
+    for (uint32_t i = 0; i + (path->closed ? 0 : 1) < path->count; i++) {
+        const float *p = s->points[path->first + i], *q = s->points[path->first + (i + 1) % path->count];
+        double       x = (double)q[0] - (double)p[0], y = (double)q[1] - (double)p[1], square = x * x + y * y;
+        double       t = square > 0 ? ((n->at[0] - (double)p[0]) * x + (n->at[1] - (double)p[1]) * y) / square : 0;
+        t = fmin(fmax(t, 0), 1);
+        n->least = fmin(n->least, hypot((double)p[0] + t * x - n->at[0], (double)p[1] + t * y - n->at[1]));
+    }
+}
+
+/* The rim of a cut face goes on along a fillet, whose faces are seen exactly from the side. */
+static void test_rims_are_whole(void **state)
+{
+    lmn_scene *kept = f.scene;
+    (void)state;
+    f.scene = load_or_fail(LIMNER_SOURCE_DIR "/examples/bracket.step");
+    for (int scale = 1; scale <= 5; scale += 2) {
+        lmn_sheet_desc d = usual();
+        char           text[16];
+        snprintf(text, sizeof text, "%d:1", scale);
+        d.scale = text;
+        d.sections = "front";
+        d.views = "front,right";
+        lmn_sheet *s = draw(&d);
+        double     worst = 0;
+        for (int i = 0; i <= 400; i++) {
+            near_line n = {.least = INFINITY};
+            double    angle = 3.14159265358979323846 * (1 + i / 800.0);
+            project(view_named(s, "section-A"), 12 + 4 * cos(angle), 15, 12 + 4 * sin(angle), n.at);
+            each_path(s, "view-section-A", "visible", measure_line, &n);
+            worst = fmax(worst, n.least);
+        }
+        print_message("%s: %.3f mm\n", text, worst);
+        assert_true(worst < 0.05 * scale);
+        lmn_sheet_destroy(&s);
+    }
+    lmn_scene_destroy(&f.scene);
+    f.scene = kept;
+}
+
+/* Sections lie beside views, whatever fits by little only. */
+static void test_two_sections_beside(void **state)
+{
+    lmn_scene     *kept = f.scene;
+    lmn_sheet_desc d = usual();
+    (void)state;
+    f.scene = load_or_fail(LIMNER_SOURCE_DIR "/examples/bracket.step");
+    d.scale = NULL;
+    d.page = "A4-landscape";
+    d.sections = "front;right";
+    d.views = "front,right";
+    lmn_sheet *s = draw(&d);
+    for (size_t i = 0; i < s->view_count; i++)
+        for (size_t k = 0; k < i; k++) {
+            const double *a = s->views[i].box, *b = s->views[k].box;
+            assert_false(a[0] < b[0] + b[2] - 0.1 && b[0] < a[0] + a[2] - 0.1 && a[1] < b[1] + b[3] - 0.1 &&
+                         b[1] < a[1] + a[3] - 0.1);
+        }
+    lmn_sheet_destroy(&s);
+    lmn_scene_destroy(&f.scene);
+    f.scene = kept;
+}
+#endif
+
 /* --- centre lines --------------------------------------------------------------------------------------- */
 
 typedef struct wanted_line {
@@ -830,6 +902,10 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_widths),
 #ifdef LIMNER_HAVE_STEP
                                        cmocka_unit_test(test_tangent_edges),
+#endif
+#ifdef LIMNER_HAVE_STEP
+                                       cmocka_unit_test(test_rims_are_whole),
+                                       cmocka_unit_test(test_two_sections_beside),
 #endif
                                        cmocka_unit_test(test_centre_lines),
                                        cmocka_unit_test(test_section_in_steps),

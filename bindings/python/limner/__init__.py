@@ -381,7 +381,7 @@ def draw_svg(models: Scene | Path | Sequence[Path], look: Look | Path = "technic
              settings: Mapping[str, Any] | None = None, page: str | None = None, scale: str | None = None, unit: str | None = None,
              views: str | None = None, angle: str = "third", title: str | None = None, frame: bool = False, plotter: bool = False,
              lines_only: bool = False, fill: bool = False, smooth: float = 0.02, line_group: float = 0, centre_lines: bool = False,
-             sections: str | None = None, details: str | None = None, auxiliary: str | None = None, fields: str | None = None, loose_hatch: bool = False, view: str = "iso", eye: Vector | None = None, target: Vector | None = None,
+             sections: str | None = None, details: str | None = None, auxiliary: str | None = None, fields: str | None = None, loose_hatch: bool = False, threads: str | None = None, view: str = "iso", eye: Vector | None = None, target: Vector | None = None,
              up: Vector | None = None, camera: str | None = None, ortho: bool = False, fov: float = 30, fit: float = 0.9,
              time: float | None = None, clip: str | None = None, fit_time: bool = False, seed: int = 0, samples: int = 0,
              background: str | None = None, select: str | None = None, dpi: float = 0, up_axis: str | None = None,
@@ -394,7 +394,7 @@ def draw_svg(models: Scene | Path | Sequence[Path], look: Look | Path = "technic
     paper.angle = _choice("angle", angle, _ANGLES)
     paper.frame, paper.plotter, paper.lines_only, paper.fill, paper.smooth = frame, plotter, lines_only, fill, smooth
     paper.line_group, paper.centre_lines, paper.loose_hatch = line_group, centre_lines, loose_hatch
-    paper.sections, paper.details, paper.auxiliary, paper.fields = (encode(text) for text in (sections, details, auxiliary, fields))
+    paper.sections, paper.details, paper.auxiliary, paper.fields, paper.threads = (encode(text) for text in (sections, details, auxiliary, fields, threads))
     if renderer is None and look.needs_pixels and not (lines_only or plotter or fill):
         renderer = _own_renderer()
     sheet = Sheet()

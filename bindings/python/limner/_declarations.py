@@ -637,6 +637,7 @@ class lmn_sheet_desc(Structure):
         ("auxiliary", c_char_p),
         ("fields", c_char_p),
         ("loose_hatch", c_bool),
+        ("threads", c_char_p),
     ]
 
 
@@ -816,7 +817,7 @@ STANDARDS: dict[type, Callable[[], Any]] = {
     lmn_projection_desc: lambda: lmn_projection_desc(sizeof(lmn_projection_desc), LMN_PROJECTION_MULTI_PERSPECTIVE, 0, 0.25, 0.75),
     lmn_importer: lambda: lmn_importer(sizeof(lmn_importer), None, None, lmn_probe_fn(), lmn_import_fn(), None),
     lmn_load_desc: lambda: lmn_load_desc(sizeof(lmn_load_desc), LMN_UP_AUTO, lmn_progress_fn(), None, None, 0, False, None, 0, None, None, 0, 0),
-    lmn_sheet_desc: lambda: lmn_sheet_desc(sizeof(lmn_sheet_desc), None, None, None, None, LMN_THIRD_ANGLE, None, False, False, False, False, False, 0.02, 0, False, None, None, None, None, False),
+    lmn_sheet_desc: lambda: lmn_sheet_desc(sizeof(lmn_sheet_desc), None, None, None, None, LMN_THIRD_ANGLE, None, False, False, False, False, False, 0.02, 0, False, None, None, None, None, False, None),
     lmn_facets: lambda: lmn_facets(0, 12, 2),
     lmn_pattern_desc: lambda: lmn_pattern_desc(sizeof(lmn_pattern_desc), LMN_PATTERN_PARALLEL, 0, 0, 0.5, 0),
     lmn_strokes_view: lambda: lmn_strokes_view(sizeof(lmn_strokes_view), 512, 0, 0, 0),
