@@ -47,6 +47,7 @@ typedef struct flow_end {
     float bright;  /* of what the line lies on, 0 … 1, linear */
     float shade;   /* how dark the place is among those of its flat face, −1 … 1; elsewhere 0 */
     float to_edge; /* along the line to where the surface or its field ends, model units; FLOW_ENDLESS: nowhere */
+    float room;    /* how broad its face is, or the edge that the line goes round, model units */
     float shift;   /* how far the hand is off the line, in its largest errors: −1 … 1, to the left of a to b */
     float to_end;  /* along the line to where it runs out, model units; FLOW_ENDLESS: it does not */
     float spaces[FLOW_SPACES]; /* how wide its strip is once its level, and the ones after it, are whole: fractions of
@@ -70,7 +71,6 @@ typedef struct mark_line {
     uint32_t triangle, stroke;
     flow_end ends[2]; /* of lines that flow: these decide about themselves all along */
     float    rank;    /* the level at which it comes, 0 … */
-    float    room;    /* how broad its face is, model units */
     float    group;   /* −1 … 1: how dark its group is among others */
     uint8_t  level, set;
 } mark_line;

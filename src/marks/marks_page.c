@@ -298,7 +298,7 @@ static float flow_width(const pager *g, const marks *m, const mark_line *l, int 
                         ? mark_flow_sparse(l, (double)e->to_edge * across / scale, (double)g->style->sparse, least)
                         : 0;
     cover = g->style->white ? fmin(cover, 1 - sparse) : fmax(cover, sparse);
-    double roomy = mark_flow_room((double)l->room * across / scale, (double)g->style->room);
+    double roomy = mark_flow_room((double)e->room * across / scale, (double)g->style->room);
     cover = roomy * cover + (1 - roomy) * (is_black(g->style, dark) != g->style->white && g->style->black > 0 ? 1 : 0);
     double low = least / (1 + 5 * (double)g->style->fade),
            thin = least > 0 ? fmin(fmax((cover - low) / (least - low), 0), 1) : 1;
@@ -306,7 +306,7 @@ static float flow_width(const pager *g, const marks *m, const mark_line *l, int 
     cover *= thin * thin * (3 - 2 * thin);
     double width = mark_flow_width(l, e->spaces, m->apart, m->levels, level, cover) * across;
     double most = g->style->widest < FLOW_ANY_WIDTH ? (double)g->style->widest * scale : INFINITY;
-    most = g->style->black > 0 ? fmin(most, (double)l->room * across) : most;
+    most = g->style->black > 0 && !g->style->white ? fmin(most, (double)e->room * across) : most;
     return (float)(fmin(width, most) * mark_flow_tip(to_end, (double)g->style->taper, (double)g->style->tip, cover,
                                                      (double)g->style->join));
 }
