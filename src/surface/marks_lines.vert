@@ -15,7 +15,7 @@ flat out vec4 v_ends;    /* of the piece, pixels */
 flat out vec4 v_depths;  /* 1 / depth of both ends (or depth), tolerance as fraction of the depth (or as depth), which ends lie on an edge: 1 the first + 2 the second */
 out float v_half_width;
 
-const float RAMP = 0.5, UNEVEN = 0.3, SPARSE = 14.0;
+const float RAMP = 0.5, UNEVEN = 0.3, SPARSE = 14.0, GRAZING = 0.05;
 
 vec4 spaces_of(float packed_spaces)
 {
@@ -139,7 +139,7 @@ float half_width_at(mark_position m, vec3 direction, float spaces, float to_end,
     float most = u_widest < 2.0 ? u_widest * u_scale : 1e9;
 #ifdef WITH_ROOM
     float room = length_of_end(a_along.w, at_end) * exp2(1.0 - u_levels) * u_apart;
-    float roomy = smoothstep(0.5 * u_room, u_room, room * across / u_scale);
+    float needed = u_room * (1.0 + set), roomy = smoothstep(0.5 * needed, needed, room * across / u_scale);
     cover *= roomy;
 #ifdef WITH_BLACK
     cover += (1.0 - roomy) * (strokes_are_light() ? step(1.0 - dark, u_black) : step(u_black, dark));
@@ -147,6 +147,7 @@ float half_width_at(mark_position m, vec3 direction, float spaces, float to_end,
 #endif
 #endif
     cover *= smoothstep(u_least / (1.0 + 5.0 * u_fade), u_least, cover);
+    cover *= smoothstep(GRAZING, 3.0 * GRAZING, abs(m.facing));
     return 0.5 * min(strip * cover, most) * tip_at(to_end * across / u_scale, cover);
 }
 
