@@ -4,7 +4,7 @@ flat in vec3 v_normal;
 flat in vec4 v_ends, v_depths; /* as in marks_lines.vert */
 in float v_half_width;
 
-const float AROUND = 1.5; /* pixels */
+const float AROUND = 1.25; /* pixels */
 const float ANOTHER_FACE = 0.5; /* cosine between normals, of either side, below which it is one */
 
 layout(location = 0) out vec4 out_shade;
@@ -44,7 +44,7 @@ float seen_of(float at, float around, float half_width, bool at_edge)
 {
     vec2 axis = mix(v_ends.xy, v_ends.zw, at);
     float depth = depth_at(at), tolerance = v_depths.z * (u_perspective > 0.5 ? depth : 1.0);
-    float there = step(1.5, axis_seen(at) + axis_seen(at - around) + axis_seen(at + around));
+    float there = step(2.5, axis_seen(at) + axis_seen(at - around) + axis_seen(at + around) + axis_seen(at - 2.0 * around) + axis_seen(at + 2.0 * around));
     vec4 here = texelFetch(t_normal_depth, ivec2(gl_FragCoord.xy), 0);
     float beside = step(abs(here.w - depth_beside(depth, axis, gl_FragCoord.xy)), (2.0 + half_width) * tolerance);
     return there * beside * (at_edge ? step(ANOTHER_FACE, abs(dot(here.xyz, v_normal))) : 1.0);
