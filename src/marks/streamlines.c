@@ -23,7 +23,8 @@ static const double MEET = 0.4;          /* unless they meet the other line befo
 static const double ACROSS = 0.6;        /* where the field's arms change, straight on */
 static const double FREE = 0.76;         /* nearer to another line none begins */
 static const double TWO_FROM = 1.6;      /* a gap this wide takes a line */
-static const double LEAST = 4;           /* length of a line that ends at others */
+static const double LEAST = 4;           /* length of a line that ends at others, */
+static const double LEAST_WHOLE = 5;     /* of strokes that are drawn whole, */
 static const double LEAST_BOUNDED = 0.7; /* and of one that runs from edge to edge, */
 static const double LEAST_NARROW = 0.3;  /* and of one across a face that is narrower than lines are apart */
 static const double HUG = 0.3;           /* nearer to an edge no line begins */
@@ -262,7 +263,10 @@ static bool trace_line(flow_maker *m, const flow_position *seed)
     }
     bool   closed = first == END_LOOP, bounded[2] = {first == END_EDGE, second == END_EDGE};
     double across = (double)m->f->rooms[seed->triangle] < m->apart ? LEAST_NARROW : LEAST_BOUNDED;
-    double length = length_within(m, beyond), least = closed ? 2 : bounded[0] && bounded[1] ? across : LEAST;
+    double length = length_within(m, beyond), least = closed                     ? 2
+                                                      : bounded[0] && bounded[1] ? across
+                                                      : m->measures              ? LEAST
+                                                                                 : LEAST_WHOLE;
     if (m->count < 2 || length < least * m->apart) {
         flow_grid_shorten(&m->grid, samples);
         return true;

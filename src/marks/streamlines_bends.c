@@ -34,7 +34,7 @@ double flow_bend_room(const flow_point *p, uint32_t count, double arc, double ap
         return INFINITY;
     bend_end a = line_at(p, count, arc - WINDOW * apart), b = line_at(p, count, arc + WINDOW * apart);
     d3       m = d3_unit(a.normal), n = d3_unit(b.normal);
-    double   turn = atan2(d3_length(cross(m, n)), dot(m, n)), length = b.arc - a.arc;
-    bool     outwards = dot(minus(n, m), minus(b.at, a.at)) > 0;
+    double turn = atan2(d3_length(cross(m, n)), dot(m, n)), length = fmax(b.arc - a.arc, d3_length(minus(b.at, a.at)));
+    bool   outwards = dot(minus(n, m), minus(b.at, a.at)) > 0;
     return outwards && turn > 0 && length > 0 ? ROOM * length / turn : INFINITY;
 }
