@@ -307,9 +307,9 @@ double mark_flow_gradient(double cover, const flow_end *end, double gradient, bo
  * have, next to edges. `distances`: of lines on the page, to the edge. */
 double mark_flow_sparse(const mark_line *line, double distances, double sparse, double least);
 /* How much is left where the surface is seen edge-on: nothing up to this cosine, all from three times that. Lines there
- * would be a blot, and whether they are seen would be chance. */
+ * would be a blot, and whether they are seen would be chance. What shall be black is so as far as its rim. */
 #define FLOW_GRAZING 0.05
-double mark_flow_grazing(double facing);
+double mark_flow_grazing(double facing, double darkness);
 /* How much is left on a face that has room for so few distances of lines: nothing below half of `room`. */
 double mark_flow_room(double distances, double room);
 /* How much of the width is left so many distances from where a line runs out, which takes `taper`: all where so much is

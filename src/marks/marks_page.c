@@ -306,7 +306,7 @@ static float flow_width(const pager *g, const marks *m, const mark_line *l, int 
            thin = least > 0 ? fmin(fmax((cover - low) / (least - low), 0), 1) : 1;
     double to_end = (double)e->to_end * across / scale;
     cover *= thin * thin * (3 - 2 * thin);
-    cover *= mark_flow_grazing(p.facing);
+    cover *= mark_flow_grazing(p.facing, dark);
     double width = mark_flow_width(l, e->spaces, m->apart, m->levels, level, cover) * across;
     double most = g->style->widest < FLOW_ANY_WIDTH ? (double)g->style->widest * scale : INFINITY;
     most = g->style->black > 0 && !g->style->white ? fmin(most, (double)e->room * across) : most;

@@ -15,7 +15,7 @@ flat out vec4 v_ends;    /* of the piece, pixels */
 flat out vec4 v_depths;  /* 1 / depth of both ends (or depth), tolerance as fraction of the depth (or as depth), which ends lie on an edge: 1 the first + 2 the second */
 out float v_half_width;
 
-const float RAMP = 0.5, UNEVEN = 0.3, SPARSE = 14.0, GRAZING = 0.05;
+const float RAMP = 0.5, UNEVEN = 0.3, SPARSE = 14.0, GRAZING = 0.05, BLACK = 0.8;
 
 vec4 spaces_of(float packed_spaces)
 {
@@ -147,7 +147,7 @@ float half_width_at(mark_position m, vec3 direction, float spaces, float to_end,
 #endif
 #endif
     cover *= smoothstep(u_least / (1.0 + 5.0 * u_fade), u_least, cover);
-    cover *= smoothstep(GRAZING, 3.0 * GRAZING, abs(m.facing));
+    cover *= mix(smoothstep(GRAZING, 3.0 * GRAZING, abs(m.facing)), 1.0, smoothstep(BLACK, 1.0, dark));
     return 0.5 * min(strip * cover, most) * tip_at(to_end * across / u_scale, cover);
 }
 

@@ -770,8 +770,9 @@ static void bends_have_room_by_their_radius(void **state)
 static void edge_on_nothing_is_left(void **state)
 {
     (void)state;
-    assert_true(mark_flow_grazing(0.04) == 0 && mark_flow_grazing(-0.15) == 1 && mark_flow_grazing(1) == 1);
-    assert_true(fabs(mark_flow_grazing(-0.1) - 0.5) < 1e-9);
+    assert_true(mark_flow_grazing(0.04, 0.5) == 0 && mark_flow_grazing(-0.15, 0.5) == 1 &&
+                mark_flow_grazing(1, 0) == 1);
+    assert_true(fabs(mark_flow_grazing(-0.1, 0.8) - 0.5) < 1e-9 && mark_flow_grazing(0, 1) == 1);
 }
 
 /* So many of all lines are there where light leaves the page bare, at edges most and nowhere far from them. */
