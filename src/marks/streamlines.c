@@ -262,10 +262,7 @@ static bool trace_line(flow_maker *m, const flow_position *seed)
     }
     bool   closed = first == END_LOOP, bounded[2] = {first == END_EDGE, second == END_EDGE};
     double across = (double)m->f->rooms[seed->triangle] < m->apart ? LEAST_NARROW : LEAST_BOUNDED;
-    double length = length_within(m, beyond), least = closed                     ? 2
-                                                      : bounded[0] && bounded[1] ? across
-                                                      : m->measures              ? LEAST
-                                                                                 : LEAST_WHOLE;
+    double length = length_within(m, beyond), least = closed ? 2 : bounded[0] && bounded[1] ? across : LEAST;
     if (m->count < 2 || length < least * m->apart) {
         flow_grid_shorten(&m->grid, samples);
         return true;
