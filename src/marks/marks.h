@@ -47,6 +47,7 @@ typedef struct flow_end {
     float bright;  /* of what the line lies on, 0 … 1, linear */
     float shade;   /* how dark the place is among those of its flat face, −1 … 1; elsewhere 0 */
     float to_edge; /* along the line to where the surface or its field ends, model units; FLOW_ENDLESS: nowhere */
+    float room;    /* how broad its face is, or the edge that the line goes round, model units */
     float shift;   /* how far the hand is off the line, in its largest errors: −1 … 1, to the left of a to b */
     float to_end;  /* along the line to where it runs out, model units; FLOW_ENDLESS: it does not */
     float spaces[FLOW_SPACES]; /* how wide its strip is once its level, and the ones after it, are whole: fractions of
@@ -70,7 +71,6 @@ typedef struct mark_line {
     uint32_t triangle, stroke;
     flow_end ends[2]; /* of lines that flow: these decide about themselves all along */
     float    rank;    /* the level at which it comes, 0 … */
-    float    room;    /* how broad its face is, model units */
     float    group;   /* −1 … 1: how dark its group is among others */
     uint8_t  level, set;
 } mark_line;
@@ -306,6 +306,10 @@ double mark_flow_gradient(double cover, const flow_end *end, double gradient, bo
 /* What is covered where light leaves the page bare: of `sparse` (0 … 1) of all lines so much as the least of them
  * have, next to edges. `distances`: of lines on the page, to the edge. */
 double mark_flow_sparse(const mark_line *line, double distances, double sparse, double least);
+/* How much is left where the surface is seen edge-on: nothing up to this cosine, all from three times that. Lines there
+ * would be a blot, and whether they are seen would be chance. What shall be black is so as far as its rim. */
+#define FLOW_GRAZING 0.05
+double mark_flow_grazing(double facing, double darkness);
 /* How much is left on a face that has room for so few distances of lines: nothing below half of `room`. */
 double mark_flow_room(double distances, double room);
 /* How much of the width is left so many distances from where a line runs out, which takes `taper`: all where so much is

@@ -73,6 +73,14 @@ double mark_flow_room(double distances, double room)
     return t * t * (3 - 2 * t);
 }
 
+double mark_flow_grazing(double facing, double darkness)
+{
+    const double BLACK = 0.8;
+    double       t = clamped((fabs(facing) / FLOW_GRAZING - 1) / 2), left = t * t * (3 - 2 * t);
+    double       u = clamped((darkness - BLACK) / (1 - BLACK));
+    return left + (1 - left) * u * u * (3 - 2 * u);
+}
+
 double mark_flow_tip(double to_end, double taper, double tip, double cover, double join)
 {
     double t = clamped(2 * cover / join - 1), closed = t * t * (3 - 2 * t);

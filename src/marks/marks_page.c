@@ -7,7 +7,8 @@
 
 #include "base/memory.h"
 
-static const float THINNEST = 0.03f; /* pixels: what flows thinner is not seen */
+static const double BRIGHTEST = 1.15; /* tone: what is nearly white is paper where it is lit */
+static const float  THINNEST = 0.03f; /* pixels: what flows thinner is not seen */
 
 typedef struct position_on_page {
     double eye[3], normal[3]; /* towards the viewer's side */
@@ -88,8 +89,9 @@ static float darkness_at(const pager *g, const position_on_page *p, float bright
     }
     double bent = pow(fmin(fmax(sum, 0), 1), (double)g->style->contrast);
     double tone = (double)g->style->shadow + ((double)g->style->light - (double)g->style->shadow) * bent;
-    tone *= 1 + (pow(fmin(fmax((double)bright, 0), 1), 1 / 2.2) - 1) *
-                    (double)g->style->texture; /* brightness as the eye counts it */
+    /* More light than paper has is no reason to lose what is dark by itself: surface/marks.glsl. */
+    tone = fmin(tone, BRIGHTEST) * (1 + (pow(fmin(fmax((double)bright, 0), 1), 1 / 2.2) - 1) *
+                                            (double)g->style->texture); /* brightness as the eye counts it */
     double darkness = g->style->white ? tone : 1 - tone;
     return (float)fmin(fmax(darkness, 0), 1);
 }
@@ -298,15 +300,16 @@ static float flow_width(const pager *g, const marks *m, const mark_line *l, int 
                         ? mark_flow_sparse(l, (double)e->to_edge * across / scale, (double)g->style->sparse, least)
                         : 0;
     cover = g->style->white ? fmin(cover, 1 - sparse) : fmax(cover, sparse);
-    double roomy = mark_flow_room((double)l->room * across / scale, (double)g->style->room);
+    double roomy = mark_flow_room((double)e->room * across / scale, (double)g->style->room * (1 + l->set));
     cover = roomy * cover + (1 - roomy) * (is_black(g->style, dark) != g->style->white && g->style->black > 0 ? 1 : 0);
     double low = least / (1 + 5 * (double)g->style->fade),
            thin = least > 0 ? fmin(fmax((cover - low) / (least - low), 0), 1) : 1;
     double to_end = (double)e->to_end * across / scale;
     cover *= thin * thin * (3 - 2 * thin);
+    cover *= mark_flow_grazing(p.facing, dark);
     double width = mark_flow_width(l, e->spaces, m->apart, m->levels, level, cover) * across;
     double most = g->style->widest < FLOW_ANY_WIDTH ? (double)g->style->widest * scale : INFINITY;
-    most = g->style->black > 0 ? fmin(most, (double)l->room * across) : most;
+    most = g->style->black > 0 && !g->style->white ? fmin(most, (double)e->room * across) : most;
     return (float)(fmin(width, most) * mark_flow_tip(to_end, (double)g->style->taper, (double)g->style->tip, cover,
                                                      (double)g->style->join));
 }

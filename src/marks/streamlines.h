@@ -119,6 +119,12 @@ bool flow_is_at_crease(const flow_surface *f, const flow_point *p);
 /* The triangle that a line lies on from one of its points to the next. */
 uint32_t flow_triangle_between(const flow_surface *f, const flow_point *a, const flow_point *b);
 
+/* --- bends (streamlines_bends.c) ------------------------------------------------------------------------- */
+
+/* How broad the edge is that a line goes round at an arc, outwards; INFINITY: it goes straight on, or inwards. `apart`:
+ * of the closest lines. */
+double flow_bend_room(const flow_point *points, uint32_t count, double arc, double apart);
+
 /* --- groups of strokes (streamlines_groups.c) ------------------------------------------------------------ */
 
 typedef struct flow_group {

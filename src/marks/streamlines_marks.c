@@ -13,6 +13,9 @@ enum { POINTS = 256 /* of a piece at most */ };
 
 static const double BENT = 0.966; /* cosine of 15 degrees: normals of a piece differ by no more */
 static const double PIECE = 5;    /* distances of the finest lines that a piece is long at most */
+static const double BENDS = 3,
+                    LOOSE = 0.15; /* distances of the finest lines, fraction of these that pieces may be off */
+static const double TICK = 0.6;   /* of the length of a line from edge to edge */
 static const double SHADE = 0.04; /* brightness, as the eye counts it, that pieces may be off */
 /* Of groups, in lengths of strokes. */
 static const double ASKED = 0.03;    /* how often along a line its group is asked for */
@@ -26,6 +29,7 @@ typedef struct stroke_point {
     flow_point p;
     float      before, after;
     float      shades[2]; /* of its flat face, before and after */
+    float      bend;      /* how broad the edge is that it goes round */
 } stroke_point;
 
 typedef struct flow_cutter {
@@ -67,13 +71,23 @@ static bool is_straight(const stroke_point *p, size_t first, size_t last, double
     return true;
 }
 
-/* Do brightness and shade change evenly from one point to another? */
-static bool is_even(const stroke_point *p, size_t first, size_t last)
+/* 1 where a bend leaves as much room as it needs for `apart`, less where it is tighter. */
+static double looseness(const stroke_point *p, double apart)
+{
+    return fmin((double)p->bend / (BENDS * apart), 1);
+}
+
+/* Do brightness, shade and bend change evenly from one point to another? */
+static bool is_even(const stroke_point *p, size_t first, size_t last, double apart)
 {
     double from = (double)p[first].after, to = (double)p[last].before, begin = (double)p[first].p.arc,
            length = (double)p[last].p.arc - begin;
+    double loose = looseness(&p[first], apart), looser = looseness(&p[last], apart);
     for (size_t i = first + 1; i < last; i++) {
         double even = length > 0 ? from + (to - from) * ((double)p[i].p.arc - begin) / length : from;
+        double part = length > 0 ? ((double)p[i].p.arc - begin) / length : 0;
+        if (fabs(loose + part * (looser - loose) - looseness(&p[i], apart)) > LOOSE)
+            return false;
         if (fabs((double)p[i].before - even) > SHADE || fabs((double)p[i].after - even) > SHADE ||
             fabs((double)p[i].shades[0] - (double)p[i].shades[1]) > SHADE)
             return false;
@@ -91,7 +105,8 @@ static size_t end_of_piece(const flow_cutter *c, const double ends[2], size_t fi
     while (last + 1 < c->count && last - first < POINTS && (double)p[last].p.arc != ends[0] &&
            (double)p[last].p.arc != ends[1] && (double)p[last + 1].p.arc - (double)p[first].p.arc < most &&
            (c->options->whole || product(p[first].p.normal, p[last + 1].p.normal) > BENT) &&
-           is_straight(p, first, last + 1, c->options->sag) && (c->options->whole || is_even(p, first, last + 1)))
+           is_straight(p, first, last + 1, c->options->sag) &&
+           (c->options->whole || is_even(p, first, last + 1, c->options->apart)))
         last++;
     return last;
 }
@@ -108,24 +123,32 @@ static vec3 mixed(vec3 a, vec3 b, float part)
     return (vec3){a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.z + part * (b.z - a.z)};
 }
 
-static bool add_stroke_point(flow_cutter *c, const flow_point *p, uint32_t triangle)
+static float bend_at(const flow_cutter *c, const flow_line *line, double arc)
+{
+    return c->options->whole
+               ? INFINITY
+               : (float)flow_bend_room(&c->lines->points[line->first], line->count, arc, c->options->apart);
+}
+
+static bool add_stroke_point(flow_cutter *c, const flow_line *line, const flow_point *p, uint32_t triangle)
 {
     if (!mem_grow((void **)&c->points, &c->capacity, c->count + 1, sizeof *c->points))
         return false;
     float before = c->count ? seen_brightness(c, triangle, p->at) : 1,
           shade = (float)flow_shade_at(c->surface, triangle, p->at, c->options->apart);
-    c->points[c->count++] = (stroke_point){*p, before, before, {shade, shade}};
+    c->points[c->count++] = (stroke_point){*p, before, before, {shade, shade}, bend_at(c, line, (double)p->arc)};
     return true;
 }
 
 /* The points of a stroke, with so many in between that lines that are far from each other, whose own points are, too,
  * know the brightness and the light of what they go over. */
-static bool lay_points(flow_cutter *c, const flow_point *p, uint32_t first, uint32_t last)
+static bool lay_points(flow_cutter *c, const flow_line *line, uint32_t first, uint32_t last)
 {
+    const flow_point   *p = &c->lines->points[line->first];
     const mark_surface *s = c->surface->surface;
     double              apart = c->options->apart * (s->brightness ? 1 : PIECE);
     c->count = 0;
-    if (!add_stroke_point(c, &p[first], p[first].triangle))
+    if (!add_stroke_point(c, line, &p[first], p[first].triangle))
         return false;
     for (uint32_t i = first; i < last; i++) {
         const flow_point *a = &p[i], *b = &p[i + 1];
@@ -144,7 +167,7 @@ static bool lay_points(flow_cutter *c, const flow_point *p, uint32_t first, uint
                 for (int n = 0; n < FLOW_SPACES; n++)
                     q.spaces[n] = a->spaces[n] + part * (b->spaces[n] - a->spaces[n]);
             }
-            if (!add_stroke_point(c, &q, triangle))
+            if (!add_stroke_point(c, line, &q, triangle))
                 return false;
         }
     }
@@ -200,11 +223,13 @@ static double to_end_of(const flow_line *line, const flow_point *p, double arc, 
     return away;
 }
 
-/* How broad the face is; and a line from edge to edge has no more room than it is long. */
+/* How broad the face is; and a line from edge to edge has no more room than it is long, less where it would be a tick.
+ */
 static float room_of(const flow_cutter *c, const flow_line *line, const flow_point *p, uint32_t at)
 {
     float room = c->surface->rooms[p[at].triangle];
-    return line->bounded[0] && line->bounded[1] && !line->closed ? fminf(room, p[line->count - 1].arc) : room;
+    return line->bounded[0] && line->bounded[1] && !line->closed ? fminf(room, (float)TICK * p[line->count - 1].arc)
+                                                                 : room;
 }
 
 /* A stroke: the points first … last of a line. */
@@ -230,16 +255,16 @@ static bool add_stroke(flow_cutter *c, const flow_line *line, uint32_t first, ui
                    .density = (float)(1 / c->options->apart),
                    .bright = 1,
                    .rank = (float)rank,
-                   .room = room_of(c, line, p, middle),
                    .group = g->tone,
                    .level = line->level,
                    .set = (uint8_t)c->set,
                    .stroke = (uint32_t)m->stroke_count++};
     /* Of those that flow, enough must be looked at for the ones that grow; whole ones get their share later. */
     l.perspective = (float)(1 - exp2(rank - finest - 0.2));
+    float        room = room_of(c, line, p, middle);
     size_t       begun = m->line_count;
     const double ends[2] = {(double)p[line->ends[0]].arc, (double)p[line->ends[1]].arc};
-    if (!lay_points(c, p, first, last))
+    if (!lay_points(c, line, first, last))
         return false;
     for (size_t i = 0, end; i + 1 < c->count; i = end) {
         end = end_of_piece(c, ends, i);
@@ -255,6 +280,7 @@ static bool add_stroke(flow_cutter *c, const flow_line *line, uint32_t first, ui
         for (int k = 0; k < 2; k++) {
             const stroke_point *at = &q[k ? end : i];
             l.ends[k] = end_at(c, line, at, to_end_of(line, p, (double)at->p.arc, from, to, cut, g), k == 0);
+            l.ends[k].room = fminf(room, at->bend);
             l.ends[k].to_edge = (float)to_edge_of(c, line, p, (double)at->p.arc);
         }
         for (int k = 0; k < 2 && g->grouped; k++)

@@ -8,6 +8,8 @@
 #include "stage/mark_brightness.h"
 
 static const double WHOLE = 65535;
+/* Whoever draws leaves out most of the grey that a thing has all over, and keeps what differs on it. */
+static const double PLAIN = 0.5;
 
 static double luminance(double r, double g, double b)
 {
@@ -190,6 +192,7 @@ double mark_brightness_at(const void *brightness, uint32_t triangle, vec3 at, do
     place_on_triangle      place = find_place(corners, at);
     for (int k = 0; k < 3; k++)
         tint += place.part[k] * (double)g->tints[i[k]];
+    tint = pow(fmax(tint, 0), PLAIN);
     if (use) {
         const vec2 *uvs[3] = {&g->picture_uvs[i[0]], &g->picture_uvs[i[1]], &g->picture_uvs[i[2]]};
         tint *= picture_at(b, use, uvs, &place, around);

@@ -184,10 +184,10 @@ static float packed_signed(float a, float b)
     return packed_two(half * (1 + a), half * (1 + b));
 }
 
-/* How far from an edge, of distances of the finest lines: in 256ths of an octave. */
-static float packed_distance(double to_edge, double apart)
+/* A length, of distances of the finest lines: in 256ths of an octave. */
+static float packed_distance(double length, double apart)
 {
-    return (float)(256 * log2(1 + to_edge / apart) / 4095);
+    return (float)(256 * log2(1 + length / apart) / 4095);
 }
 
 static void write_flow(float (*r)[4], const mark_line *l, float lean, double apart)
@@ -199,7 +199,8 @@ static void write_flow(float (*r)[4], const mark_line *l, float lean, double apa
     r[2][3] = packed_spaces(a);
     memcpy(r[3], (float[]){b->normal.x, b->normal.y, b->normal.z, packed_spaces(b)}, sizeof *r);
     memcpy(r[4],
-           (float[]){a->to_end, b->to_end, packed_two(sqrtf(fmaxf(a->bright, 0)), sqrtf(fmaxf(b->bright, 0))), l->room},
+           (float[]){a->to_end, b->to_end, packed_two(sqrtf(fmaxf(a->bright, 0)), sqrtf(fmaxf(b->bright, 0))),
+                     packed_two(packed_distance((double)a->room, apart), packed_distance((double)b->room, apart))},
            sizeof *r);
     memcpy(
         r[5],

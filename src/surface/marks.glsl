@@ -7,6 +7,8 @@ uniform float u_focal;  /* of the projection, pixels at depth 1, or to a unit */
 
 uniform float u_closed;  /* 1: the surface is closed, all of it is there, and the viewer is outside */
 
+const float BRIGHTEST = 1.15; /* tone: what is nearly white is paper where it is lit */
+
 const vec4 NOWHERE = vec4(0.0, 0.0, 2.0, 1.0); /* outside of what is drawn: the cheapest way to leave a mark out (EX-13) */
 
 /* Where a mark's tone is decided. */
@@ -38,8 +40,15 @@ float page_area(mark_position m)
 float darkness_at(mark_position m, float bright)
 {
     vec3 normal = m.facing < 0.0 ? -m.normal : m.normal;
+#if defined(WITH_TEXTURE) && !defined(RANGED)
+    /* More light than paper has is no reason to lose what is dark by itself. */
+    surface_point p = surface_point(m.eye, normal, normal, vec4(1.0), false, 0u);
+    float tone = min(tone_of_light(p, light_of(p)), BRIGHTEST) * mix(1.0, seen_brightness(vec3(bright)), u_texture);
+#else
     surface_point p = surface_point(m.eye, normal, normal, vec4(vec3(bright), 1.0), false, 0u);
-    return focused(p, clamp(darkness_of(tone_of_light(p, light_of(p))), 0.0, 1.0));
+    float tone = tone_of_light(p, light_of(p));
+#endif
+    return focused(p, clamp(darkness_of(tone), 0.0, 1.0));
 }
 
 vec2 page_of(vec4 clip)

@@ -46,7 +46,7 @@ static const param params[] = {
                           "do; else all swell on."),
     PARAM_FLOAT_ROW(surface_lines_values, room, .toggles = true, .def = 0, .min = 0, .max = 20, .soft_max = 6,
                     .doc = "Faces that are narrower than this, in distances of lines, have fewer, and none below half "
-                           "of it; 0: however narrow they are."),
+                           "of it; each further set needs as much more; 0: however narrow they are."),
     PARAM_FLOAT_ROW(surface_lines_values, black, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .only_if = "room>0",
                     .doc = "Darkness from which faces without room for lines are black instead of bare; 0: never."),

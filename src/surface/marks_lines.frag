@@ -4,6 +4,7 @@ flat in vec3 v_normal;
 flat in vec4 v_ends, v_depths; /* as in marks_lines.vert */
 in float v_half_width;
 
+const float AROUND = 1.25; /* pixels */
 const float ANOTHER_FACE = 0.5; /* cosine between normals, of either side, below which it is one */
 
 layout(location = 0) out vec4 out_shade;
@@ -22,18 +23,29 @@ float depth_beside(float depth, vec2 axis, vec2 middle)
     return depth + dot(v_normal.xy, beside.xy - ray.xy) / max(v_normal.z, 0.02);
 }
 
-/* Is the line's surface seen at its axis, and beside it here? Its sides end where something else begins, and `at_edge` where its face does. */
-float seen_of(float at, float half_width, bool at_edge)
+float depth_at(float at)
+{
+    float depth = mix(v_depths.x, v_depths.y, at);
+    return u_perspective > 0.5 ? 1.0 / depth : depth;
+}
+
+/* Is the line's surface what is seen at its axis? */
+float axis_seen(float at)
 {
     vec2 axis = mix(v_ends.xy, v_ends.zw, at), pixel = clamp(floor(axis), vec2(0.0), u_size - 1.0); /* of lines whose axis is off the page, the nearest one on it */
-    float depth = mix(v_depths.x, v_depths.y, at), tolerance = v_depths.z;
-    if (u_perspective > 0.5) {
-        depth = 1.0 / depth;
-        tolerance *= depth;
-    }
-    vec4 seen = texelFetch(t_normal_depth, ivec2(pixel), 0), here = texelFetch(t_normal_depth, ivec2(gl_FragCoord.xy), 0);
+    float depth = depth_at(at), tolerance = v_depths.z * (u_perspective > 0.5 ? depth : 1.0);
+    vec4 seen = texelFetch(t_normal_depth, ivec2(pixel), 0);
     /* Far from its own depth only what is turned as it is can be its surface. */
-    float like = dot(seen.xyz, v_normal), there = step(abs(seen.w - depth_beside(depth, axis, pixel + 0.5)), tolerance * clamp(2.0 * like, 0.15, 1.0));
+    return step(abs(seen.w - depth_beside(depth, axis, pixel + 0.5)), tolerance * clamp(2.0 * dot(seen.xyz, v_normal), 0.15, 1.0));
+}
+
+/* Is it seen there, as most of the axis around says? Where two surfaces lie nearly at one depth single pixels would be specks, and holes. Its sides end where something else begins, and `at_edge` where its face does. */
+float seen_of(float at, float around, float half_width, bool at_edge)
+{
+    vec2 axis = mix(v_ends.xy, v_ends.zw, at);
+    float depth = depth_at(at), tolerance = v_depths.z * (u_perspective > 0.5 ? depth : 1.0);
+    float there = step(2.5, axis_seen(at) + axis_seen(at - around) + axis_seen(at + around) + axis_seen(at - 2.0 * around) + axis_seen(at + 2.0 * around));
+    vec4 here = texelFetch(t_normal_depth, ivec2(gl_FragCoord.xy), 0);
     float beside = step(abs(here.w - depth_beside(depth, axis, gl_FragCoord.xy)), (2.0 + half_width) * tolerance);
     return there * beside * (at_edge ? step(ANOTHER_FACE, abs(dot(here.xyz, v_normal))) : 1.0);
 }
@@ -50,6 +62,6 @@ void main()
     float cover = clamp(min(ends.x, ends.y) + 0.5, 0.0, 1.0) * clamp(half_width + 0.5 - off, 0.0, min(2.0 * half_width, 1.0));
     int wanted = cover > 0.0 ? 1 : 0; /* looking things up takes most of the time */
     for (int once = 0; once < wanted; once++)
-        cover *= seen_of(clamp(along / size, before.x, 1.0 - before.y), half_width, edges.x * (half_width - along) > 0.0 || edges.y * (half_width - size + along) > 0.0);
+        cover *= seen_of(clamp(along / size, before.x, 1.0 - before.y), AROUND / size, half_width, edges.x * (half_width - along) > 0.0 || edges.y * (half_width - size + along) > 0.0);
     out_shade = vec4(u_ink.rgb, 1.0) * (u_ink.a * cover);
 }

@@ -5,7 +5,7 @@ layout(location = 0) in vec4 a_from;        /* the level at which it comes */
 layout(location = 1) in vec4 a_to;          /* its own level + 32 times the number of its set + 128 times how dark its group is, 0 ... 62 */
 layout(location = 2) in vec4 a_from_normal; /* how wide its strip is at four levels, packed */
 layout(location = 3) in vec4 a_to_normal;
-layout(location = 4) in vec4 a_along;       /* how far both ends are from where the line runs out, brightness of the model at both, packed, how broad its face is */
+layout(location = 4) in vec4 a_along;       /* how far both ends are from where the line runs out, brightness of the model at both, packed, how broad its face is at both, packed */
 layout(location = 5) in vec4 a_group;       /* of both ends, packed: fraction of the stroke drawn, how far off the line, shade on a flat face, how far from an edge */
 
 uniform float u_near_plane, u_levels, u_apart, u_sag; /* distance of the first level; how far pieces leave the surface */
@@ -15,7 +15,7 @@ flat out vec4 v_ends;    /* of the piece, pixels */
 flat out vec4 v_depths;  /* 1 / depth of both ends (or depth), tolerance as fraction of the depth (or as depth), which ends lie on an edge: 1 the first + 2 the second */
 out float v_half_width;
 
-const float RAMP = 0.5, UNEVEN = 0.3, SPARSE = 14.0;
+const float RAMP = 0.5, UNEVEN = 0.3, SPARSE = 14.0, GRAZING = 0.05, BLACK = 0.8;
 
 vec4 spaces_of(float packed_spaces)
 {
@@ -87,10 +87,16 @@ float signed_of_end(float packed_numbers, bool at_end)
     return of_end(packed_numbers, at_end) * (4095.0 / 2047.0) - 1.0;
 }
 
-/* Distances of the finest lines from the edge. */
+/* A length, in distances of the finest lines. */
+float length_of_end(float packed_lengths, bool at_end)
+{
+    return exp2(of_end(packed_lengths, at_end) * 4095.0 / 256.0) - 1.0;
+}
+
+/* Of the edge. */
 float to_edge_of(bool at_end)
 {
-    return exp2(of_end(a_group.w, at_end) * 4095.0 / 256.0) - 1.0;
+    return length_of_end(a_group.w, at_end);
 }
 
 /* Darker by so much where strokes are dark; where they are light, it is the dark between them that changes. */
@@ -132,14 +138,16 @@ float half_width_at(mark_position m, vec3 direction, float spaces, float to_end,
 #endif
     float most = u_widest < 2.0 ? u_widest * u_scale : 1e9;
 #ifdef WITH_ROOM
-    float roomy = smoothstep(0.5 * u_room, u_room, a_along.w * across / u_scale);
+    float room = length_of_end(a_along.w, at_end) * exp2(1.0 - u_levels) * u_apart;
+    float needed = u_room * (1.0 + set), roomy = smoothstep(0.5 * needed, needed, room * across / u_scale);
     cover *= roomy;
 #ifdef WITH_BLACK
     cover += (1.0 - roomy) * (strokes_are_light() ? step(1.0 - dark, u_black) : step(u_black, dark));
-    most = min(most, a_along.w * across);
+    most = strokes_are_light() ? most : min(most, room * across);
 #endif
 #endif
     cover *= smoothstep(u_least / (1.0 + 5.0 * u_fade), u_least, cover);
+    cover *= mix(smoothstep(GRAZING, 3.0 * GRAZING, abs(m.facing)), 1.0, smoothstep(BLACK, 1.0, dark));
     return 0.5 * min(strip * cover, most) * tip_at(to_end * across / u_scale, cover);
 }
 

@@ -26,8 +26,8 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* Fraction of the figure that is ink, where all of it has this tone: blue ink on red paper. Two lines only, and none so
- * faint: what is inked is between them. */
+/* Fraction of the figure that is ink, where all of it has this tone: blue ink on red paper. Few lines only, thin ones,
+ * and none so faint: what is inked is between them. */
 static double inked(double tone, double solid)
 {
     char          text[640];
@@ -38,7 +38,8 @@ static double inked(double tone, double solid)
     snprintf(
         text, sizeof text,
         "{\"version\": 2, \"finish\": {\"ground\": \"#00ff00\"}, \"rules\": [{\"surface\": {\"technique\": \"lines\", "
-        "\"count\": 1, \"least\": 0.5, \"series\": 1, \"shadow\": %g, \"light\": %g, \"texture\": 0, \"ink\": "
+        "\"count\": 1, \"least\": 0.5, \"widest\": 0.2, \"series\": 1, \"shadow\": %g, \"light\": %g, \"texture\": 0, "
+        "\"ink\": "
         "\"#0000ff\", "
         "\"paper\": \"#ff0000\", \"solid\": %g}}]}",
         tone, tone, solid);

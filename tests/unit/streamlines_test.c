@@ -2,7 +2,7 @@
  * they are, and how wide they are drawn. */
 #include "field_shapes.h"
 
-#include "marks/marks.h"
+#include "marks/streamlines.h"
 
 typedef struct shape {
     primitive    p;
@@ -496,7 +496,7 @@ static void rooms_are_as_broad_as_faces(void **state)
     for (size_t i = 0; i < m.line_count; i++) {
         uint32_t face = m.lines[i].triangle / 2;
         seen[face]++;
-        assert_true(fabs((double)m.lines[i].room - expected[face]) < 1e-4);
+        assert_true(fabs((double)m.lines[i].ends[0].room - expected[face]) < 1e-4);
     }
     for (int face = 0; face < 6; face++)
         assert_true(seen[face] > 5);
@@ -509,7 +509,7 @@ static void rooms_are_as_broad_as_faces(void **state)
     m = make_lines(&ring, 0.05, 1, 1);
     assert_true(m.line_count > 20);
     for (size_t i = 0; i < m.line_count; i++)
-        assert_true(fabs((double)m.lines[i].room - 1) < 1e-3);
+        assert_true(fabs((double)m.lines[i].ends[0].room - 1) < 1e-3);
     surface_marks_release(&m);
     release_shape(&ring);
     assert_true(mark_flow_room(1.9, 4) == 0 && mark_flow_room(4, 4) == 1 && mark_flow_room(0.1, 0) == 1);
@@ -541,7 +541,7 @@ static void barely_meshes_have_lines(void **state)
         assert_int_equal(marks_streamlines(&m, &s.surface, &options, NULL), LMN_OK);
         for (size_t i = 0; i < m.line_count; i++)
             assert_true(isfinite(m.lines[i].a.x + m.lines[i].b.y + m.lines[i].ends[0].spaces[0] + m.lines[i].rank +
-                                 m.lines[i].room + m.lines[i].ends[1].shift + m.lines[i].ends[0].drawn));
+                                 m.lines[i].ends[0].room + m.lines[i].ends[1].shift + m.lines[i].ends[0].drawn));
         surface_marks_release(&m);
         release_shape(&s);
     }
@@ -734,12 +734,45 @@ static void short_lines_have_no_room(void **state)
             continue;
         bounded++;
         tight += l->length < 0.3f;
-        assert_true(l->room <= l->length * 1.0001f);
+        for (const mark_line *k = l; k <= last; k++)
+            assert_true(fmaxf(k->ends[0].room, k->ends[1].room) <= 0.6f * l->length * 1.0001f);
     }
     printf("round edge: %zu lines from edge to edge, %zu of them short\n", bounded, tight);
     assert_true(bounded > 20 && tight > 0);
     surface_marks_release(&m);
     release_shape(&edge);
+}
+
+/* Round an edge outwards a line has room by the edge's radius, inwards and on what is even all of it; and along the
+ * edge, too. */
+static void bends_have_room_by_their_radius(void **state)
+{
+    (void)state;
+    enum { POINTS = 201 };
+    flow_point  p[POINTS];
+    const float r = 0.5f, step = 0.01f;
+    for (int inwards = 0; inwards < 2; inwards++) {
+        for (int i = 0; i < POINTS; i++) {
+            float arc = step * (float)i, turn = fminf(fmaxf((arc - 0.6f) / r, 0), 1.5707963f);
+            float on = arc < 0.6f ? arc : 0.6f + r * sinf(turn), down = arc < 0.6f ? 0 : r * (cosf(turn) - 1);
+            float after = fmaxf(arc - 0.6f - 1.5707963f * r, 0), side = inwards ? -1 : 1;
+            p[i] = (flow_point){
+                .at = {on, side * (down - after), 0}, .normal = {side * sinf(turn), cosf(turn), 0}, .arc = arc};
+        }
+        assert_true(isinf(flow_bend_room(p, POINTS, 0.3, 0.2)) && isinf(flow_bend_room(p, POINTS, 1.8, 0.2)));
+        double room = flow_bend_room(p, POINTS, 1, 0.2);
+        assert_true(inwards ? isinf(room) : fabs(room / (1.15 * (double)r) - 1) < 0.01);
+    }
+    assert_true(isinf(flow_bend_room(p, 1, 0, 0.2)));
+}
+
+/* Edge-on there is nothing, and from three times the least cosine on all. */
+static void edge_on_nothing_is_left(void **state)
+{
+    (void)state;
+    assert_true(mark_flow_grazing(0.04, 0.5) == 0 && mark_flow_grazing(-0.15, 0.5) == 1 &&
+                mark_flow_grazing(1, 0) == 1);
+    assert_true(fabs(mark_flow_grazing(-0.1, 0.8) - 0.5) < 1e-9 && mark_flow_grazing(0, 1) == 1);
 }
 
 /* So many of all lines are there where light leaves the page bare, at edges most and nowhere far from them. */
@@ -783,6 +816,8 @@ int main(void)
         cmocka_unit_test(flat_faces_fade),
         cmocka_unit_test(lines_know_what_they_lie_on),
         cmocka_unit_test(short_lines_have_no_room),
+        cmocka_unit_test(bends_have_room_by_their_radius),
+        cmocka_unit_test(edge_on_nothing_is_left),
         cmocka_unit_test(few_lines_are_sparse),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
