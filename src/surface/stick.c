@@ -15,7 +15,7 @@
 typedef struct stick_values {
     halftone_values common;
     int32_t         medium, tooth_paper, map_seed;
-    float           darkest, scale, width, length, vary, smear, tooth, tooth_size, gloss, accent;
+    float           darkest, scale, width, length, vary, smear, tooth, tooth_size, gloss, accent, lean, opacity;
 } stick_values;
 
 enum { SIDE = 256, TONES = 6, MEDIUM_TONED = 2, ROUNDS = 4 };
@@ -35,12 +35,19 @@ static const param params[] = {
                     .doc = "How much of the paper the darkest tone covers."),
     PARAM_FLOAT_ROW(stick_values, vary, .def = 12, .min = 0, .max = 60, .soft_max = 30, .unit = UNIT_DEGREES,
                     .doc = "How far the two times that a surface is gone over turn away from each other."),
+    PARAM_FLOAT_ROW(stick_values, lean, .toggles = true, .def = 30, .min = -90, .max = 90, .unit = UNIT_DEGREES,
+                    .only_if = "coordinates=form",
+                    .doc = "How far strokes turn on faces that look to the right, and the other way on those that look "
+                           "to the left."),
     PARAM_FLOAT_ROW(stick_values, scale, .def = 0.75, .min = 0.1875, .max = 12, .soft_min = 0.375, .soft_max = 3,
                     .unit = UNIT_PT, .logarithmic = true, .doc = "Size of a texel of the strokes: how coarse they are."),
     PARAM_FLOAT_ROW(stick_values, width, .def = 8, .min = 1, .max = 32, .soft_max = 16, .cpu_only = true,
                     .doc = "Width of strokes in texels."),
     PARAM_FLOAT_ROW(stick_values, length, .def = 0.35, .min = 0.06, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
                     .doc = "Length of the longest strokes, fraction of 256 texels."),
+    PARAM_FLOAT_ROW(stick_values, opacity, .def = 0.7, .min = 0.2, .max = 0.9, .unit = UNIT_FRACTION, .cpu_only = true,
+                    .doc = "How much of what is left of the paper a stroke covers: strokes of much stand alone, those "
+                           "of little lie over each other."),
     PARAM_FLOAT_ROW(stick_values, smear, .def = 0.3, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Fraction of the tone that is rubbed smooth under the strokes."),
     PARAM_FLOAT_ROW(stick_values, tooth, .def = 0.7, .min = 0, .max = 1, .unit = UNIT_FRACTION,
@@ -62,10 +69,10 @@ static const param params[] = {
 static void describe_strokes(text *out, const void *values)
 {
     const stick_values *v = values;
-    text_append(out, "1 width=%.6g length=%.6g seed=%d", (double)v->width, (double)v->length, v->map_seed);
+    text_append(out, "3 width=%.6g length=%.6g opacity=%.6g seed=%d", (double)v->width, (double)v->length,
+                (double)v->opacity, v->map_seed);
 }
 
-/* Each stroke takes half of what is left, so that it is seen for itself, and two where they overlap. */
 static lmn_status make_strokes(mip_chain *out, const void *values, lmn_error *error)
 {
     const stick_values *v = values;
@@ -74,7 +81,7 @@ static lmn_status make_strokes(mip_chain *out, const void *values, lmn_error *er
                                    .darkest = 0.9,
                                    .width = (double)v->width,
                                    .length = (double)v->length,
-                                   .opacity = 0.5,
+                                   .opacity = (double)v->opacity,
                                    .uneven = 0.5f,
                                    .grain = 0.5,
                                    .placement = TAM_BEST_FIT,
@@ -122,6 +129,12 @@ static const pass passes[] = {
      .writes = TARGET_DIRECTION,
      .repeat = ROUNDS,
      .when = HALFTONE_DEFERRED_WHEN,
+     .prepares = true},
+    {.name = "lean",
+     .shader = "surface/stick_lean.frag",
+     .reads = {TARGET_DIRECTION, TARGET_NORMAL_DEPTH},
+     .writes = TARGET_DIRECTION,
+     .when = "coordinates=form&lean",
      .prepares = true},
 };
 

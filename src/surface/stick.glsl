@@ -51,12 +51,15 @@ float gone_over(float darkness, int layer)
     return 1.0 - bare;
 }
 
-/* Light touches reach the highest teeth alone, heavy ones fill the valleys. Contacts are even, so that a ramp around a threshold keeps the mean. */
+/* Light touches reach the highest teeth alone and leave little on them, heavy ones fill the valleys. Contacts are even, so that the mean of a ramp over them is its
+ * area: it is as steep for all pressures, and moves. */
 float on_teeth(float cover)
 {
-    const float SOFT = 0.7;
-    float ramp = max(min(SOFT, 2.0 * min(cover, 1.0 - cover)), 0.004);
-    return mix(cover, clamp((s_contact - 1.0 + cover) / ramp + 0.5, 0.0, 1.0), u_tooth);
+    const float SOFT = 0.6;
+    float light = min(cover, 1.0 - cover), height = cover < 0.5 ? s_contact : 1.0 - s_contact;
+    float start = light < 0.5 * SOFT ? sqrt(2.0 * SOFT * light) : light + 0.5 * SOFT;
+    float left = clamp((height - 1.0 + start) / SOFT, 0.0, 1.0);
+    return mix(cover, cover < 0.5 ? left : 1.0 - left, u_tooth);
 }
 
 /* The fraction of the paper that one stick covers for a darkness: part of it is rubbed smooth, the rest is strokes over that. */
@@ -89,7 +92,11 @@ float contact_here()
 /* The first stick takes the light half, the second comes with the dark; together as much as is wanted. a, b: of the paper's light that each takes at most. */
 vec4 two_sticks(vec4 paper, vec3 own, float darkness)
 {
-    vec3 first = mix(u_second_ink.rgb, own * u_second_ink.rgb, u_ink_tint), second = mix(u_ink.rgb, own * u_ink.rgb, u_ink_tint);
+    /* Greys live by the two colours alone; what has a colour keeps it, and a little more of it than it has, since paper shows through. */
+    float grey = 1.0 - 0.7 * smoothstep(0.08, 0.4, max(own.r, max(own.g, own.b)) - min(own.r, min(own.g, own.b)));
+    own = clamp(mix(vec3(dot(own, LUMINANCE)), own, 1.2), 0.0, 1.0);
+    vec3 warm = mix(vec3(1.0), u_second_ink.rgb, grey), cool = mix(vec3(dot(u_ink.rgb, LUMINANCE)), u_ink.rgb, grey);
+    vec3 first = mix(u_second_ink.rgb, own * warm, u_ink_tint), second = mix(u_ink.rgb, own * cool, u_ink_tint);
     float white = max(dot(paper.rgb, LUMINANCE), 1e-3);
     float a = clamp(1.0 - dot(first, LUMINANCE) , 0.02, 1.0), b = clamp(1.0 - dot(second, LUMINANCE), 0.02, 1.0);
     float most = u_darkest, whole = 1.0 - (1.0 - most * a) * (1.0 - most * b), wanted = darkness * whole;
