@@ -27,8 +27,8 @@ static const param params[] = {
     PARAM_ENUM_ROW(stick_values, medium, .names = medium_names, .variant = true,
                    .doc = "one: a single colour; pair: second_ink first and ink over it, the more the darker; toned: "
                           "ink for what is lighter than the paper and second_ink for what is darker."),
-    PARAM_COLOUR_ROW(halftone_values, second_ink, .def_colour = {0.96f, 0.88f, 0.76f, 1}, .only_if = "medium=pair,toned",
-                     .doc = "Colour of the other stick."),
+    PARAM_COLOUR_ROW(halftone_values, second_ink, .def_colour = {0.96f, 0.88f, 0.76f, 1},
+                     .only_if = "medium=pair,toned", .doc = "Colour of the other stick."),
     PARAM_FLOAT_ROW(halftone_values, ink_tint, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Fraction of the model's own colour in the sticks'."),
     PARAM_FLOAT_ROW(stick_values, darkest, .def = 0.9, .min = 0.2, .max = 1, .unit = UNIT_FRACTION,
@@ -40,7 +40,8 @@ static const param params[] = {
                     .doc = "How far strokes turn on faces that look to the right, and the other way on those that look "
                            "to the left."),
     PARAM_FLOAT_ROW(stick_values, scale, .def = 0.75, .min = 0.1875, .max = 12, .soft_min = 0.375, .soft_max = 3,
-                    .unit = UNIT_PT, .logarithmic = true, .doc = "Size of a texel of the strokes: how coarse they are."),
+                    .unit = UNIT_PT, .logarithmic = true,
+                    .doc = "Size of a texel of the strokes: how coarse they are."),
     PARAM_FLOAT_ROW(stick_values, width, .def = 8, .min = 1, .max = 32, .soft_max = 16, .cpu_only = true,
                     .doc = "Width of strokes in texels."),
     PARAM_FLOAT_ROW(stick_values, length, .def = 0.35, .min = 0.06, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
