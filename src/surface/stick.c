@@ -1,8 +1,8 @@
 /* stick: chalk, charcoal and crayon, laid with the side of the stick. Broad strokes follow the form, over what has been
  * rubbed smooth before; the paper's teeth take what a stroke leaves, the highest first. Strokes are a tonal art map
  * (Praun 2001), directions those of the coordinates (Müller, section 4), averaged over whole planes. Which layers lie
- * over each other is the medium's: one colour, a warm one and a cool one, or white and black on toned paper. Teeth:
- * threshold strokes after Durand et al., "Interactive artistic drawing", 2001. */
+ * over each other is the medium's: one colour, a warm one and a cool one, or white and black on toned paper. Teeth
+ * are thresholds of a stroke's tone, as in Durand 2001. */
 #include "halftone/paper.h"
 #include "halftone/tonal_art_map.h"
 
