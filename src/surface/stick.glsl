@@ -109,7 +109,7 @@ vec4 two_sticks(vec4 paper, vec3 own, float darkness)
 /* White from the paper's own tone up, black from there down. */
 vec4 toned(vec4 paper, vec3 own, float tone)
 {
-    vec3 white = mix(u_ink.rgb, own, u_ink_tint), black = mix(u_second_ink.rgb, own * 0.4, 0.6 * u_ink_tint); /* black takes less of it: shades stay deep */
+    vec3 white = mix(u_ink.rgb, own, u_ink_tint), black = mix(u_second_ink.rgb, own * 0.35, 0.45 * u_ink_tint); /* black takes less of it: shades stay deep */
     float w = dot(white, LUMINANCE), b = dot(black, LUMINANCE), g = dot(paper.rgb, LUMINANCE);
     float up = max(w - g, 0.02) * u_darkest, down = max(g - b, 0.02) * u_darkest, middle = down / (up + down);
     float above = clamp((tone - middle) / (1.0 - middle), 0.0, 1.0), below = clamp((middle - tone) / middle, 0.0, 1.0);
