@@ -129,8 +129,10 @@ vec4 surface_colour(surface_point p)
     vec3 own = vec3(1.0); /* the ground has no colour of its own */
 #else
     tone += u_gloss * highlight(p, 40.0);
-    float shut = 1.0 - sky_fraction(p);
-    tone -= u_accent * shut * shut;
+#ifdef HAS_OCCLUSION
+    /* Where a part of the sky is shut out that is seen, whatever the tone misses for it. */
+    tone -= u_accent * smoothstep(0.08, 0.45, (1.0 - sky_fraction(p)) / max(u_occlusion, 0.01));
+#endif
     vec3 own = shown(p.albedo.rgb);
 #endif
     tone = 1.0 - focused(p, 1.0 - clamp(tone, 0.0, 1.0));

@@ -129,10 +129,42 @@ static void sizes_are_one_drawing(void)
     shape_release(&model);
 }
 
+/* The mean of a wall, or of two that stand beside each other with a cleft between. */
+static double cleft(const shape *model, const char *accent)
+{
+    const char *changes[] = {
+        "surface.accent", accent, "lines.operator", "none", "scene.ground", "none", "surface.shadow", "0.4", NULL};
+    shot      s;
+    shot_view view = {
+        .width = SIDE, .height = SIDE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .fov_deg = 25, .without_maps = true};
+    double sum = 0;
+    if (!shot_of_shape(&s, model, "cleft.glb", "charcoal", changes, &view))
+        return NAN;
+    for (int i = 0; i < SIDE * SIDE; i++)
+        sum += shown(&s.picture[4 * (size_t)i]) / (SIDE * SIDE);
+    shot_release(&s);
+    return sum;
+}
+
+/* Accents darken clefts, and nothing that is open. */
+static void accents_lie_in_clefts(void)
+{
+    shape clefts = {0}, open = {0};
+    for (int i = 0; i < 6; i++)
+        shape_box(&clefts, "post", dvec_of(0.4 * i - 1.2, -1, 0), dvec_of(0.4 * i - 1.1, 1, 0.3));
+    shape_box(&clefts, "back", dvec_of(-1.2, -1, -0.2), dvec_of(1.2, 1, 0));
+    shape_quad(&open, "wall", 20, 0);
+    check_at_least("sticks", cleft(&clefts, "0") - cleft(&clefts, "1"), 0.003, "how much darker accents make clefts");
+    check_near("sticks", cleft(&open, "1"), cleft(&open, "0"), 1e-9, "a wall, with accents and without");
+    shape_release(&clefts);
+    shape_release(&open);
+}
+
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"faces", faces_have_their_own_strokes}, {"sizes", sizes_are_one_drawing}};
-    int                     status = check_main(argc, argv, "sticks", cases, sizeof cases / sizeof *cases);
+    static const check_case cases[] = {
+        {"faces", faces_have_their_own_strokes}, {"sizes", sizes_are_one_drawing}, {"clefts", accents_lie_in_clefts}};
+    int status = check_main(argc, argv, "sticks", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
 }
