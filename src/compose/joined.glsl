@@ -1,5 +1,5 @@
 /* What perturbations need that join the copies of a line: what is to be averaged at a copy's position, and the ink that an average stands for. */
-#if defined(MEAN_OF_INK) || CONTRAST > 0 || defined(HAS_DASH)
+#if defined(MEAN_OF_INK) || (CONTRAST > 0 && CONTRAST != 2) || defined(HAS_DASH)
 vec4 averaged_at(vec2 position, int i)
 {
 #ifdef MEAN_OF_INK
@@ -71,6 +71,12 @@ vec4 ink_of_copies(inout float depth)
         join_copy(own, i);
     }
     vec4 ink = joined_ink();
+#if CONTRAST == 2 && !defined(MEAN_OF_INK) && !defined(HAS_DASH)
+    /* Once for all copies: the ground is blurred, so that they lie on the same. */
+    int contrasts = ink.a > 0.0 ? 1 : 0;
+    for (int once = 0; once < contrasts; once++)
+        ink = contrasting(ink, ivec2(gl_FragCoord.xy));
+#endif
 #ifdef HAS_FOCUS
     int drawn = ink.a > 0.0 ? 1 : 0;
 #else

@@ -6,12 +6,14 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy), last = ivec2(u_size) - 1;
     ivec2 along = u_iteration == 0 ? ivec2(1, 0) : ivec2(0, 1);
     int reach = int(ceil(u_line_blur));
-    vec4 sum = vec4(0.0);
-    float weights = 0.0;
-    for (int i = -reach; i <= reach; i++) {
-        float w = exp(-2.0 * float(i * i) / (u_line_blur * u_line_blur));
-        sum += w * texelFetch(t_ground, clamp(pixel + i * along, ivec2(0), last), 0);
-        weights += w;
+    /* Weights of a Gaussian from one another: each is the one before times a factor that shrinks as evenly. */
+    float square = u_line_blur * u_line_blur, factor = exp(-2.0 / square), shrinks = exp(-4.0 / square), weight = 1.0, weights = 1.0;
+    vec4 sum = texelFetch(t_ground, pixel, 0);
+    for (int i = 1; i <= reach; i++) {
+        weight *= factor;
+        factor *= shrinks;
+        sum += weight * (texelFetch(t_ground, max(pixel - i * along, ivec2(0)), 0) + texelFetch(t_ground, min(pixel + i * along, last), 0));
+        weights += 2.0 * weight;
     }
     out_0 = sum / weights;
 }

@@ -78,6 +78,37 @@ vec2 second_side(ivec2 pixel)
 }
 #endif
 
+#if CONTRAST == 2
+/* Section 8.6.2: dark on light ground and light on dark, by the blurred picture. */
+bool is_light_line(ivec2 pixel)
+{
+    float ground = lightness(texelFetch(t_ground, clamp(pixel, ivec2(0), ivec2(u_size) - 1), 0).rgb);
+    return abs(lightness(u_line_light_colour.rgb) - ground) > abs(lightness(u_line_colour.rgb) - ground);
+}
+
+/* Where the picture shows the edge by itself the line may be left out. A loop, since software drivers leave out those that no pixel enters, and run all else. */
+float not_suppressed(ivec2 pixel)
+{
+    float left = 1.0;
+    int wanted = u_line_suppress > 0.0 ? 1 : 0;
+    for (int once = 0; once < wanted; once++) {
+        ivec2 reach = ivec2(2, 0);
+        float across = lightness(texelFetch(t_shade, clamp(pixel + reach.xy, ivec2(0), ivec2(u_size) - 1), 0).rgb) -
+                       lightness(texelFetch(t_shade, clamp(pixel - reach.xy, ivec2(0), ivec2(u_size) - 1), 0).rgb);
+        float up = lightness(texelFetch(t_shade, clamp(pixel + reach.yx, ivec2(0), ivec2(u_size) - 1), 0).rgb) -
+                   lightness(texelFetch(t_shade, clamp(pixel - reach.yx, ivec2(0), ivec2(u_size) - 1), 0).rgb);
+        left = 1.0 - smoothstep(u_line_suppress, u_line_suppress + 0.1, max(abs(across), abs(up)));
+    }
+    return left;
+}
+
+/* Ink of the dark colour as it is where it lies. */
+vec4 contrasting(vec4 ink, ivec2 pixel)
+{
+    return (is_light_line(pixel) ? vec4(u_line_light_colour.rgb, 1.0) * (ink.a * u_line_light_colour.a) : ink) * not_suppressed(pixel);
+}
+#endif
+
 vec4 ink_at(vec2 position)
 {
     vec4 edge = edge_at(position);
@@ -90,21 +121,9 @@ vec4 ink_at(vec2 position)
     vec2 moved = position - floor(vec2(u_line_offset_x, -u_line_offset_y) + 0.5);
     ink = over(ink, ink_of(edge_at(moved), u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(moved));
 #elif CONTRAST == 2
-    /* Section 8.6.2: dark on light ground and light on dark, by the blurred picture; where the picture shows the edge by itself the
-     * line may be left out. */
-    float ground = lightness(texelFetch(t_ground, clamp(pixel, ivec2(0), ivec2(u_size) - 1), 0).rgb);
-    float light_distance = abs(lightness(u_line_light_colour.rgb) - ground);
-    float dark_distance = abs(lightness(u_line_colour.rgb) - ground);
-    if (light_distance > dark_distance)
+    if (is_light_line(pixel))
         ink = ink_of(edge, u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(position);
-    if (u_line_suppress > 0.0) {
-        ivec2 reach = ivec2(2, 0);
-        float across = lightness(texelFetch(t_shade, clamp(pixel + reach.xy, ivec2(0), ivec2(u_size) - 1), 0).rgb) -
-                       lightness(texelFetch(t_shade, clamp(pixel - reach.xy, ivec2(0), ivec2(u_size) - 1), 0).rgb);
-        float up = lightness(texelFetch(t_shade, clamp(pixel + reach.yx, ivec2(0), ivec2(u_size) - 1), 0).rgb) -
-                   lightness(texelFetch(t_shade, clamp(pixel - reach.yx, ivec2(0), ivec2(u_size) - 1), 0).rgb);
-        ink *= 1.0 - smoothstep(u_line_suppress, u_line_suppress + 0.1, max(abs(across), abs(up)));
-    }
+    ink *= not_suppressed(pixel);
 #elif CONTRAST >= 3
     vec2 moved = position - floor(second_side(pixel) * max(u_line_width, 1.0) + 0.5);
     ink = over(ink, ink_of(edge_at(moved), u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(moved));

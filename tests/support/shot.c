@@ -71,7 +71,7 @@ static lmn_draw_desc desc_of(const shot_view *view)
     desc.orthographic = view->orthographic;
     if (view->fov_deg > 0)
         desc.fov_deg = view->fov_deg;
-    desc.dpi = 96; /* lengths in px are pixels, and those of looks of version 1 */
+    desc.dpi = view->dpi > 0 ? view->dpi : 96; /* lengths in px are pixels, and those of looks of version 1 */
     desc.samples = view->samples > 0 ? view->samples : 1;
     desc.maps = !view->without_maps;
     desc.profile = view->profile;

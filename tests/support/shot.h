@@ -22,6 +22,7 @@ typedef struct shot_view {
     bool        profile; /* the report lists passes */
     uint32_t    seed;
     double      time_s;
+    double      dpi;    /* pixels to an inch of paper; 0: 96 */
     const char *select; /* draws these parts alone; NULL: all */
 } shot_view;
 

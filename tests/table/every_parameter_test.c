@@ -85,6 +85,7 @@ static const struct {
     {"finish", "label_size", "nothing is written here; unit.annotate_test has labels"},
     {"finish", "legend", "no datum is shown here; unit.annotate_test has one"},
     {"finish", "scale_bar", "it needs a parallel projection; unit.annotate_test has one"},
+    {"surface", "accent", "the looks here have no occlusion; analytic.sticks has some"},
     {"motion", "shadows", "the looks here have no shadows; engine.streaks_test has some"},
 };
 

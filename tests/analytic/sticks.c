@@ -1,0 +1,170 @@
+/* Media laid with the side of a stick: strokes that follow faces, on teeth that are as large on paper at any size. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "shape.h"
+#include "shot.h"
+
+enum { SIDE = 512, BLUR = 3 };
+
+static const double PI = 3.14159265358979323846;
+
+static const char *const media[] = {"chalk", "charcoal", "crayon"};
+enum { MEDIA = sizeof media / sizeof *media };
+
+static const char *const one_tone[] = {"surface.shadow",
+                                       "0.55",
+                                       "surface.light",
+                                       "0.55",
+                                       "surface.texture",
+                                       "0",
+                                       "scene.ground",
+                                       "none",
+                                       "lines.operator",
+                                       "none",
+                                       "perturb.technique",
+                                       "none",
+                                       NULL};
+
+static double shown(const uint8_t *rgba)
+{
+    return (0.2126 * rgba[0] + 0.7152 * rgba[1] + 0.0722 * rgba[2]) / 255;
+}
+
+/* Means over squares: grains are finer than strokes. */
+static double around(const shot *s, int x, int y)
+{
+    double sum = 0;
+    for (int j = -BLUR; j <= BLUR; j++)
+        for (int i = -BLUR; i <= BLUR; i++)
+            sum += shown(&s->picture[4 * ((size_t)(y + j) * (size_t)s->width + (size_t)(x + i))]);
+    return sum;
+}
+
+/* Twice the angle along which the columns from `left` to `right` change least, and how sure that is: the structure
+ * tensor's smaller axis. */
+static void slant(const shot *s, int left, int right, double out[2])
+{
+    double xx = 0, xy = 0, yy = 0;
+    for (int y = SIDE / 4; y < 3 * SIDE / 4; y += 2)
+        for (int x = left; x < right; x += 2) {
+            double dx = around(s, x + 1, y) - around(s, x - 1, y), dy = around(s, x, y - 1) - around(s, x, y + 1);
+            xx += dx * dx;
+            xy += dx * dy;
+            yy += dy * dy;
+        }
+    double cosine = yy - xx, sine = -2 * xy;
+    out[0] = atan2(sine, cosine);
+    out[1] = hypot(cosine, sine) / (xx + yy);
+}
+
+/* The two faces of an edge, equally dark: strokes of each have a direction, and not the other's. */
+static void faces_have_their_own_strokes(void)
+{
+    shape model = {0};
+    shape_wedge(&model, "wedge", 80);
+    for (size_t m = 0; m < MEDIA; m++) {
+        shot      s;
+        shot_view view = {.width = SIDE,
+                          .height = SIDE,
+                          .eye = {0, 0.5, 5},
+                          .target = {0, 0.5, 0},
+                          .up = {0, 1, 0},
+                          .fov_deg = 12,
+                          .without_maps = true};
+        if (!shot_of_shape(&s, &model, "wedge.glb", media[m], one_tone, &view))
+            continue;
+        double left[2], right[2];
+        slant(&s, SIDE / 2 - SIDE / 3, SIDE / 2 - 24, left);
+        slant(&s, SIDE / 2 + 24, SIDE / 2 + SIDE / 3, right);
+        double between = fabs(remainder(left[0] - right[0], 2 * PI)) / 2 * 180 / PI;
+        check_at_least("sticks", between, 25, "%s: degrees between the strokes of two faces", media[m]);
+        check_at_least("sticks", fmin(left[1], right[1]), 0.12, "  how much they have a direction");
+        shot_release(&s);
+    }
+    shape_release(&model);
+}
+
+static bool wall(shot *out, const shape *model, const char *look, int finer)
+{
+    int       side = finer * SIDE;
+    shot_view view = {.width = side,
+                      .height = side,
+                      .dpi = 96 * finer,
+                      .eye = {0, 0, 5},
+                      .up = {0, 1, 0},
+                      .orthographic = true,
+                      .without_maps = true};
+    return shot_of_shape(out, model, "stick_wall.glb", look, one_tone, &view);
+}
+
+/* Strokes and teeth are lengths on paper: a picture of twice the size is the same drawing, finer. */
+static void sizes_are_one_drawing(void)
+{
+    shape model = {0};
+    shape_quad(&model, "wall", 20, 0);
+    for (size_t m = 0; m < MEDIA; m++) {
+        shot small, large;
+        if (!wall(&small, &model, media[m], 1))
+            continue;
+        if (wall(&large, &model, media[m], 2)) {
+            double a = 0, b = 0, aa = 0, bb = 0, ab = 0, count = 0;
+            for (int y = 0; y < SIDE; y++)
+                for (int x = 0; x < SIDE; x++, count++) {
+                    const uint8_t *at = &large.picture[8 * ((size_t)(2 * y) * SIDE + (size_t)x)];
+                    double         p = shown(&small.picture[4 * ((size_t)y * SIDE + (size_t)x)]),
+                           q = (shown(at) + shown(at + 4) + shown(at + 8 * SIDE) + shown(at + 8 * SIDE + 4)) / 4;
+                    a += p, b += q, aa += p * p, bb += q * q, ab += p * q;
+                }
+            double spread = sqrt((aa / count - a * a / count / count) * (bb / count - b * b / count / count));
+            check_near("sticks", a / count, b / count, 0.01, "%s: tone at two sizes", media[m]);
+            check_at_least("sticks", (ab / count - a * b / count / count) / spread, 0.8, "  how alike they are");
+            shot_release(&large);
+        }
+        shot_release(&small);
+    }
+    shape_release(&model);
+}
+
+/* The mean of a wall, or of two that stand beside each other with a cleft between. */
+static double cleft(const shape *model, const char *accent)
+{
+    const char *changes[] = {
+        "surface.accent", accent, "lines.operator", "none", "scene.ground", "none", "surface.shadow", "0.4", NULL};
+    shot      s;
+    shot_view view = {
+        .width = SIDE, .height = SIDE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .fov_deg = 25, .without_maps = true};
+    double sum = 0;
+    if (!shot_of_shape(&s, model, "cleft.glb", "charcoal", changes, &view))
+        return NAN;
+    for (int i = 0; i < SIDE * SIDE; i++)
+        sum += shown(&s.picture[4 * (size_t)i]) / (SIDE * SIDE);
+    shot_release(&s);
+    return sum;
+}
+
+/* Accents darken clefts, and nothing that is open. */
+static void accents_lie_in_clefts(void)
+{
+    shape clefts = {0}, open = {0};
+    for (int i = 0; i < 6; i++)
+        shape_box(&clefts, "post", dvec_of(0.4 * i - 1.2, -1, 0), dvec_of(0.4 * i - 1.1, 1, 0.3));
+    shape_box(&clefts, "back", dvec_of(-1.2, -1, -0.2), dvec_of(1.2, 1, 0));
+    shape_quad(&open, "wall", 20, 0);
+    check_at_least("sticks", cleft(&clefts, "0") - cleft(&clefts, "1"), 0.003, "how much darker accents make clefts");
+    check_near("sticks", cleft(&open, "1"), cleft(&open, "0"), 1e-9, "a wall, with accents and without");
+    shape_release(&clefts);
+    shape_release(&open);
+}
+
+int main(int argc, char **argv)
+{
+    static const check_case cases[] = {
+        {"faces", faces_have_their_own_strokes}, {"sizes", sizes_are_one_drawing}, {"clefts", accents_lie_in_clefts}};
+    int status = check_main(argc, argv, "sticks", cases, sizeof cases / sizeof *cases);
+    shot_end();
+    return status;
+}
