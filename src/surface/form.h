@@ -7,11 +7,23 @@
 /* So many rounds of the pass for a radius in pixels. */
 int form_rounds(double radius);
 
-/* `ROUNDS`: int (*)(const void *values), of the technique. */
-#define FORM_PASS(ROUNDS)                                                                                              \
+/* `ROUNDS`: int (*)(const void *values), of the technique. Islands go first, all is spread on half the pixels, and then
+ * found on each. */
+#define FORM_PASSES(ROUNDS)                                                                                            \
     {                                                                                                                  \
-        .name = "form", .shader = "surface/form.frag", .reads = {TARGET_FORM, TARGET_NORMAL_DEPTH, TARGET_ID},         \
-        .writes = TARGET_FORM, .rounds = (ROUNDS), .when = "smoothing>0", .prepares = true                             \
+        .name = "form, islands", .shader = "surface/form_islands.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ID},     \
+        .writes = TARGET_FORM_HALF, .when = "smoothing>0", .prepares = true                                            \
+    },                                                                                                                 \
+        {.name = "form, spread",                                                                                       \
+         .shader = "surface/form_spread.frag",                                                                         \
+         .reads = {TARGET_FORM_HALF, TARGET_NORMAL_DEPTH, TARGET_ID},                                                  \
+         .writes = TARGET_FORM_HALF,                                                                                   \
+         .rounds = (ROUNDS),                                                                                           \
+         .when = "smoothing>0",                                                                                        \
+         .prepares = true},                                                                                            \
+    {                                                                                                                  \
+        .name = "form", .shader = "surface/form.frag", .reads = {TARGET_FORM_HALF, TARGET_NORMAL_DEPTH, TARGET_ID},    \
+        .writes = TARGET_FORM, .when = "smoothing>0", .prepares = true                                                 \
     }
 
 #endif

@@ -64,7 +64,7 @@ static int rounds_of(const void *values)
 }
 
 static const pass passes[] = {
-    FORM_PASS(rounds_of),
+    FORM_PASSES(rounds_of),
     {.name = "blur tones",
      .shader = "surface/toon_blur.frag",
      .reads = {TARGET_SHADE, TARGET_ID},

@@ -127,7 +127,7 @@ vec4 surface_colour(surface_point p)
         return vec4(shown(p.albedo.rgb), 1.0);
     float arrives = unshadowed(p);
 #ifdef SHADED_LATER
-    surroundings around = surroundings_of(p);
+    surroundings around = surroundings_of(p, false);
     surface_point right = p, above = p;
     arrives = around.light;
     p.normal = around.normal;

@@ -30,7 +30,7 @@ vec4 surface_colour(surface_point p)
 {
     float border = 0.0, slope, first = unshadowed(p);
 #ifdef SHADED_LATER
-    surroundings around = surroundings_of(p);
+    surroundings around = surroundings_of(p, true);
     surface_point right = p, above = p;
     first = around.light;
     p.normal = around.normal;
