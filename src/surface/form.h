@@ -7,20 +7,16 @@
 /* So many rounds of the pass for a radius in pixels. */
 int form_rounds(double radius);
 
-/* `ROUNDS`: int (*)(const void *values), of the technique. Islands go first, all is spread on half the pixels, and then
- * found on each. */
+/* `ROUNDS`: int (*)(const void *values), of the technique. All is spread on half the pixels each way, and then found on
+ * each pixel. */
 #define FORM_PASSES(ROUNDS)                                                                                            \
-    {                                                                                                                  \
-        .name = "form, islands", .shader = "surface/form_islands.frag", .reads = {TARGET_NORMAL_DEPTH, TARGET_ID},     \
-        .writes = TARGET_FORM_HALF, .when = "smoothing>0", .prepares = true                                            \
-    },                                                                                                                 \
-        {.name = "form, spread",                                                                                       \
-         .shader = "surface/form_spread.frag",                                                                         \
-         .reads = {TARGET_FORM_HALF, TARGET_NORMAL_DEPTH, TARGET_ID},                                                  \
-         .writes = TARGET_FORM_HALF,                                                                                   \
-         .rounds = (ROUNDS),                                                                                           \
-         .when = "smoothing>0",                                                                                        \
-         .prepares = true},                                                                                            \
+    {.name = "form, spread",                                                                                           \
+     .shader = "surface/form_spread.frag",                                                                             \
+     .reads = {TARGET_FORM_HALF, TARGET_NORMAL_DEPTH, TARGET_ID},                                                      \
+     .writes = TARGET_FORM_HALF,                                                                                       \
+     .rounds = (ROUNDS),                                                                                               \
+     .when = "smoothing>0",                                                                                            \
+     .prepares = true},                                                                                                \
     {                                                                                                                  \
         .name = "form", .shader = "surface/form.frag", .reads = {TARGET_FORM_HALF, TARGET_NORMAL_DEPTH, TARGET_ID},    \
         .writes = TARGET_FORM, .when = "smoothing>0", .prepares = true                                                 \
