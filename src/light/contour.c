@@ -1,7 +1,7 @@
 /* Borders of half coverage are traced by marching squares, in steps of equal length, and cut at corners: where straight
  * lines meet. What lies between is smoothed by a Gaussian along it, twice what that leaves less what it leaves of that
- * again, so that round things keep their size (Taubin 1995, "A signal processing approach to fair surface design": a
- * smoothing step and one back). Then the area within is summed up exactly, texel by texel. */
+ * again, so that round things keep their size (Tukey 1977, "Exploratory data analysis": twicing). Then the area within
+ * is summed up exactly, texel by texel. */
 #include "light/contour.h"
 
 #include <math.h>

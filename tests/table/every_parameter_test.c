@@ -79,6 +79,7 @@ static const struct {
     {"surface", "sea", "nothing here lies level at height 0"},
     {"scene", "ground_edge", "the parts do not stand on one level; analytic.ground has a block that does"},
     {"scene", "ground_hatch", "the parts do not stand on one level; analytic.ground has a block that does"},
+    {"scene", "ground_fade", "the parts do not stand on one level; analytic.ground has a block that does"},
     {"scene", "ground_smoothing", "the parts do not stand on one level; analytic.ground has a block that does"},
     {"scene", "ground_angle", "the parts do not stand on one level; analytic.ground has a block that does"},
     {"scene", "datum_other", "every part has a height; analytic.city has one without a value"},
