@@ -35,7 +35,8 @@ void lights_declare(text *prelude, const frame *f)
 {
     light_list l = list_lights(f);
     bool       shadows = f->shadow && scene_of(f)->shadows;
-    text_append(prelude, "#define LIGHT_COUNT %d\n%s", l.count, shadows ? "#define LIT_WITH_SHADOW\n" : "");
+    text_append(prelude, "#define LIGHT_COUNT %d\n#define RIM_LIGHT %d\n%s", l.count, l.rim,
+                shadows ? "#define LIT_WITH_SHADOW\n" : "");
     if (shadows)
         target_declare(prelude, &target_rows[TARGET_SHADOW]);
     visibility_declare(prelude, f);

@@ -22,7 +22,11 @@ float unshadowed(surface_point p)
 {
 #if defined(HAS_SOFT_SHADOW)
     arrived_light arrived = light_at(p);
-    return arrived.known ? arrived.light : lit_once(p.eye, p.normal);
+    float light = arrived.known ? arrived.light : lit_once(p.eye, p.normal), stray = strays(p.normal, p.face, towards_light(0, p.eye));
+    /* What was found for such a face is the shadow of its neighbours. */
+    if (stray > 0.0 && light < 1.0)
+        light = mix(light, max(light, lit_fraction(p.eye, p.normal, p.face, towards_light(0, p.eye))), stray);
+    return light;
 #elif defined(LIT_WITH_SHADOW)
     return lit_fraction(p.eye, p.normal, p.face, towards_light(0, p.eye));
 #else
@@ -54,19 +58,25 @@ vec3 diffuse_light(surface_point p)
     return diffuse_light_of(p, unshadowed(p));
 }
 
-/* Sum of half-Lambert terms, 0 … 1 for one white light: 0.5 at the terminator. */
+/* Sum of half-Lambert terms, 0 … 1 for one white light: 0.5 at the terminator. A rim light is from behind and lights what it meets alone, by Lambert's law: half of that law would reach
+ * all that is seen. */
 float wrapped_light(surface_point p)
 {
     float sum = 0.0;
     float total = 0.0;
+    float rim = 0.0;
     float first = unshadowed(p);
     for (int i = 0; i < LIGHT_COUNT; i++) {
         float strength = dot(u_light_colour[i].rgb, vec3(0.2126, 0.7152, 0.0722));
         float turned = dot(p.normal, towards_light(i, p.eye));
+        if (i == RIM_LIGHT) {
+            rim = strength * max(turned, 0.0);
+            continue;
+        }
         sum += strength * (0.5 * (turned > 0.0 && i == 0 ? turned * first : turned) + 0.5);
         total += strength;
     }
-    return total > 0.0 ? sum / total * sky_fraction(p) : 0.0;
+    return total > 0.0 ? min(sum / total + rim, 1.0) * sky_fraction(p) : 0.0;
 }
 
 /* Phong's highlight of the key light: reflected light direction against the viewer's. One light, because two highlights on one

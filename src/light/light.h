@@ -17,7 +17,7 @@ typedef enum ground_kind { GROUND_NONE, GROUND_CONTACT, GROUND_CAST } ground_kin
 /* The parameters, read by src/plan and src/frame when it sets the scene up. */
 typedef struct scene_values {
     direction   light_direction;
-    float       fill, crease_angle;
+    float       fill, rim, crease_angle;
     bool        round; /* src/plan/round_scene.h */
     int32_t     lights;
     float       light_scale;

@@ -24,6 +24,13 @@ vec2 shadow_slope(vec3 normal)
 /* How far a face is raised, for the square of the sine of the angle to its normal, as a share of what the map spans: that of a ball as large as that. */
 const float RAISED = 0.4;
 
+/* How far a face is turned away from the light of what it stands for, 0 … 1; faces tilted by more than 30 degrees stand for nothing else. */
+float strays(vec3 normal, vec3 face, vec3 light)
+{
+    float tilt = 1.0 - dot(face, normal) * dot(face, normal);
+    return smoothstep(0.0, 0.01, tilt) * (1.0 - smoothstep(0.2, 0.4, tilt)) * (1.0 - smoothstep(0.3, 0.6, dot(face, light))) * step(dot(face, light), dot(normal, light));
+}
+
 /* The mean of comparisons over the side of a pixel, one texel to three: the border of a shadow has no steps on the page, and what is finer than a pixel is a
  * tone. */
 float lit_fraction(vec3 eye, vec3 normal, vec3 face, vec3 light)

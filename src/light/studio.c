@@ -1,5 +1,5 @@
-/* studio: a key light that goes with the viewer and a weaker fill light from the other side, or the file's own
- * lights. */
+/* studio: a key light that goes with the viewer, a weaker fill light from the other side and, where a look wants it, a
+ * rim light from behind; or the file's own lights. */
 #include "light/light.h"
 #include "cut/cut.h"
 
@@ -20,13 +20,16 @@ static const param params[] = {
                         .doc = "Direction towards the key light as the viewer sees it: right, up, to the viewer."),
     PARAM_FLOAT_ROW(scene_values, fill, .def = 0.25, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
                     .doc = "Strength of a fill light from the other side."),
+    PARAM_FLOAT_ROW(scene_values, rim, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
+                    .doc = "Strength of a light from behind, on the side of the page that the key light is not on: it "
+                           "lifts shaded borders off what is beside them, as reflected light does."),
     PARAM_FLOAT_ROW(scene_values, crease_angle, .def = 30, .min = 0, .max = 180, .unit = UNIT_DEGREES, .cpu_only = true,
                     .doc = "Faces that meet at less are smoothed where a model brings no normals."),
     PARAM_BOOL_ROW(scene_values, round, .def = 0, .cpu_only = true,
                    .doc = "Coarse meshes are drawn as the curved surfaces that their normals tell of, outlines "
                           "included; flat faces and sharp edges stay."),
     PARAM_ENUM_ROW(scene_values, lights, .names = source_names, .cpu_only = true,
-                   .doc = "studio: the two lights above; file: the model's lights, if it has any."),
+                   .doc = "studio: the lights above; file: the model's lights, if it has any."),
     PARAM_FLOAT_ROW(scene_values, light_scale, .def = 1, .min = 0, .max = 1000, .soft_max = 4, .cpu_only = true,
                     .doc = "Multiplies all lights."),
     PARAM_BOOL_ROW(

@@ -36,9 +36,21 @@ static void add_file_lights(const light_conditions *c, float positions[][4], flo
     }
 }
 
+/* The direction of the rim light: from behind, and across the page from the key light. A ball seen from far away is lit
+ * within 40 degrees of its outline there: atan(1 / RIM_BEHIND). */
+#define RIM_BEHIND 1.2
+
+static void rim_direction(const double key[3], double out[3])
+{
+    double across = hypot(key[0], key[1]);
+    out[0] = across > 0 ? -key[0] : 1;
+    out[1] = -key[1];
+    out[2] = -RIM_BEHIND * (across > 0 ? across : 1);
+}
+
 light_list lights_list(const light_conditions *c)
 {
-    light_list          l = {.count = 0};
+    light_list          l = {.rim = -1};
     const scene_values *v = c->look->wide[KIND_SCENE].values;
     if (v->lights == LIGHTS_FILE)
         add_file_lights(c, l.positions, l.colours, &l.count, v->light_scale);
@@ -58,5 +70,11 @@ light_list lights_list(const light_conditions *c)
     add_light(l.positions, l.colours, &l.count, key, 0, white, v->light_scale);
     if (v->fill > 0)
         add_light(l.positions, l.colours, &l.count, fill, 0, white, v->light_scale * v->fill);
+    if (v->rim > 0) {
+        double rim[3];
+        rim_direction(key, rim);
+        l.rim = l.count;
+        add_light(l.positions, l.colours, &l.count, rim, 0, white, v->light_scale * v->rim);
+    }
     return l;
 }

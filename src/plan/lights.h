@@ -1,4 +1,4 @@
-/* The lights of a view: the studio's two or the file's own. Light reaches surfaces alike whether they are drawn as
+/* The lights of a view: the studio's or the file's own. Light reaches surfaces alike whether they are drawn as
  * pixels or as vectors. */
 #ifndef LIMNER_PLAN_LIGHTS_H
 #define LIMNER_PLAN_LIGHTS_H
@@ -11,6 +11,7 @@ typedef struct light_list {
     float positions[LIGHTS_MAX][4]; /* eye space: a position, 1; or the direction towards the light, 0 */
     float colours[LIGHTS_MAX][4];   /* linear */
     int   count;                    /* at least 1 */
+    int   rim;                      /* which of them is the rim light; -1: none */
 } light_list;
 
 typedef struct light_conditions {

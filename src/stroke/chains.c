@@ -664,6 +664,27 @@ void stroke_set_release(stroke_set *s)
     memset(s, 0, sizeof *s);
 }
 
+/* Leaves out what says least and what lies on other lines, but for what closes corners. */
+static lmn_status leave_out(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error)
+{
+    uint8_t *gone = mem_calloc(set->stroke_count + 1, 1);
+    if (!gone)
+        return error_memory(error);
+    lmn_status status = strokes_choose(set, v, options, gone, error);
+    if (status == LMN_OK)
+        status = strokes_thin(set, options->crowd, v->camera.width, v->camera.height, gone, error);
+    if (status == LMN_OK && memchr(gone, 1, set->stroke_count) && !strokes_close_corners(set, gone))
+        status = error_memory(error);
+    size_t kept = 0;
+    for (size_t i = 0; i < set->stroke_count && status == LMN_OK; i++)
+        if (!gone[i])
+            set->strokes[kept++] = set->strokes[i];
+    if (status == LMN_OK)
+        set->stroke_count = kept;
+    mem_free(gone);
+    return status;
+}
+
 /* What overlaps is joined, and may overlap with others then. */
 enum { TRIMS = 3 };
 
@@ -687,9 +708,7 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_optio
             status = strokes_trim(out, v, &overlaps, error);
     }
     if (status == LMN_OK)
-        status = strokes_choose(out, v, options, error);
-    if (status == LMN_OK)
-        status = strokes_thin(out, options->crowd, v->camera.width, v->camera.height, error);
+        status = leave_out(out, v, options, error);
     out->perspective = !v->camera.orthographic;
     if (status != LMN_OK)
         stroke_set_release(out);

@@ -10,7 +10,8 @@
 #define MM      PAPER_UNITS_PER_MM
 #define CELL    MM
 #define TOUCHES (0.06 * MM) /* shared corners are at one place; where one hides another, nearly so */
-#define LONGEST (6 * MM)    /* what is longer is what made the crowd */
+#define BESIDE  (0.25 * MM) /* about a pen: ink of lines so near runs together */
+#define LONGEST (12 * MM)   /* what is longer is what made the crowd */
 enum { WAY_MOST = 3 };      /* lines that come back for one end */
 
 /* A piece of a drawn stroke, in each cell that it runs through. */
@@ -91,11 +92,11 @@ static bool put_stroke(page_pieces *p, size_t index)
     return good;
 }
 
-static bool is_near(const stroke_point *at, const stroke_point *a)
+static bool is_near(const stroke_point *at, const stroke_point *a, double most)
 {
     const double x = (double)a[1].x - a->x, y = (double)a[1].y - a->y, square = x * x + y * y;
     const double t = square > 0 ? fmin(fmax(((at->x - a->x) * x + (at->y - a->y) * y) / square, 0), 1) : 0;
-    return hypot(a->x + t * x - at->x, a->y + t * y - at->y) <= TOUCHES;
+    return hypot(a->x + t * x - at->x, a->y + t * y - at->y) <= most;
 }
 
 static bool is_end(const stroke_set *set, const stroke *s, const stroke_point *at)
@@ -121,7 +122,7 @@ static meeting_kind meeting_at(const page_pieces *p, const stroke_point *at)
                 continue;
             for (uint32_t i = p->heads[(size_t)r * (size_t)p->columns + (size_t)c]; i; i = p->items[i - 1].next) {
                 const piece *of = &p->items[i - 1];
-                if (of->stroke == found || !is_near(at, &p->set->points[of->point]))
+                if (of->stroke == found || !is_near(at, &p->set->points[of->point], TOUCHES))
                     continue;
                 if (found != UINT32_MAX || !is_end(p->set, &p->set->strokes[of->stroke], at))
                     return MEETS_LINES;
@@ -193,7 +194,32 @@ static bool find_way(way *w, const page_pieces *drawn, const page_pieces *left, 
     return false;
 }
 
-/* What ends in the open is led on to the next line. */
+/* Finds a stroke that is gone, runs beside a place and ends at what is drawn on both sides. */
+static bool find_beside(way *w, const page_pieces *drawn, const page_pieces *left, const uint8_t *gone,
+                        const stroke_point *at)
+{
+    const int row = cell_along(at->y, left->low[1], left->rows),
+              column = cell_along(at->x, left->low[0], left->columns);
+    for (int r = row - 1; r <= row + 1; r++)
+        for (int c = column - 1; c <= column + 1; c++) {
+            if (r < 0 || c < 0 || r >= left->rows || c >= left->columns)
+                continue;
+            for (uint32_t i = left->heads[(size_t)r * (size_t)left->columns + (size_t)c]; i;
+                 i = left->items[i - 1].next) {
+                const piece  *of = &left->items[i - 1];
+                const stroke *s = &left->set->strokes[of->stroke];
+                if (gone[of->stroke] && is_near(at, &left->set->points[of->point], BESIDE) &&
+                    meeting_at(drawn, point_of(left->set, s, false)) != MEETS_NOTHING &&
+                    meeting_at(drawn, point_of(left->set, s, true)) != MEETS_NOTHING) {
+                    *w = (way){.strokes = {of->stroke}, .count = 1};
+                    return true;
+                }
+            }
+        }
+    return false;
+}
+
+/* What ends in the open is led on to the next line, or has one beside it. */
 static bool close_end(page_pieces *drawn, const page_pieces *left, uint8_t *gone, const stroke_point *at)
 {
     way  w = {.count = 0};
@@ -202,6 +228,7 @@ static bool close_end(page_pieces *drawn, const page_pieces *left, uint8_t *gone
         return true;
     for (int most = 1; most <= WAY_MOST && !found; most++)
         found = find_way(&w, drawn, left, gone, at, most);
+    found = found || find_beside(&w, drawn, left, gone, at);
     for (int i = 0; i < w.count && found && good; i++) {
         gone[w.strokes[i]] = 0;
         good = put_stroke(drawn, w.strokes[i]);

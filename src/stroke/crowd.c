@@ -33,11 +33,11 @@ typedef struct layer {
 } layer;
 
 typedef struct crowd {
-    stroke_set *set;
-    float       cell;          /* pixels */
-    int32_t     columns, rows; /* of blocks */
-    int         layer_count;   /* 1: directions do not matter; or DIRECTIONS */
-    layer       layers[DIRECTIONS];
+    const stroke_set *set;
+    float             cell;          /* pixels */
+    int32_t           columns, rows; /* of blocks */
+    int               layer_count;   /* 1: directions do not matter; or DIRECTIONS */
+    layer             layers[DIRECTIONS];
 } crowd;
 
 static bool is_marked(const crowd *c, const layer *l, int32_t column, int32_t row)
@@ -104,7 +104,7 @@ static bool step_along(crowd *c, const stroke *s, bool trace)
     return trace ? put_trace(c, direction, p->x, p->y) : is_traced(c, direction, p->x, p->y);
 }
 
-static bool open_crowd(crowd *c, stroke_set *set, float apart, int width, int height, int layers)
+static bool open_crowd(crowd *c, const stroke_set *set, float apart, int width, int height, int layers)
 {
     bool good = true;
     *c = (crowd){.set = set, .cell = apart * CELL, .layer_count = layers};
@@ -148,34 +148,26 @@ static bool is_crumb(const stroke *s, const ranked *rank)
     return s->kind == STROKE_CONTOUR && !s->closed && (double)rank->length < CRUMB_LENGTH;
 }
 
-/* Keeps what does not run along what is kept already; `crumbs`: only crumbs may go, beside what is visible. */
-static bool mark_kept(crowd *c, const ranked *ranks, uint8_t *kept, bool crumbs)
+/* What runs along what stays goes, too; `crumbs`: only crumbs may go, beside what is visible. */
+static bool mark_gone(crowd *c, const ranked *ranks, uint8_t *gone, bool crumbs)
 {
     for (size_t i = 0; i < c->set->stroke_count; i++) {
         const stroke *s = &c->set->strokes[ranks[i].number];
         bool          may_go = !crumbs || (s->hidden_by == 0 && is_crumb(s, &ranks[i]));
-        kept[ranks[i].number] = !may_go || !step_along(c, s, false);
-        if (kept[ranks[i].number] && (!crumbs || s->hidden_by == 0) && !step_along(c, s, true))
+        if (gone[ranks[i].number])
+            continue;
+        gone[ranks[i].number] = may_go && step_along(c, s, false);
+        if (!gone[ranks[i].number] && (!crumbs || s->hidden_by == 0) && !step_along(c, s, true))
             return false;
     }
     return true;
 }
 
-static void drop(stroke_set *set, const uint8_t *kept)
+static bool thin(const stroke_set *set, float apart, int width, int height, bool crumbs, uint8_t *gone)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < set->stroke_count; i++)
-        if (kept[i])
-            set->strokes[count++] = set->strokes[i];
-    set->stroke_count = count;
-}
-
-static bool thin(stroke_set *set, float apart, int width, int height, bool crumbs)
-{
-    crowd    c;
-    ranked  *ranks = mem_alloc((set->stroke_count + 1) * sizeof *ranks);
-    uint8_t *kept = mem_calloc(set->stroke_count + 1, 1);
-    bool     good = open_crowd(&c, set, apart, width, height, crumbs ? DIRECTIONS : 1) && ranks && kept;
+    crowd   c;
+    ranked *ranks = mem_alloc((set->stroke_count + 1) * sizeof *ranks);
+    bool    good = open_crowd(&c, set, apart, width, height, crumbs ? DIRECTIONS : 1) && ranks;
     if (good) {
         for (uint32_t i = 0; i < set->stroke_count; i++) {
             const stroke *s = &set->strokes[i];
@@ -183,20 +175,18 @@ static bool thin(stroke_set *set, float apart, int width, int height, bool crumb
                                 set->points[s->first + s->count - 1].arc - set->points[s->first].arc};
         }
         qsort(ranks, set->stroke_count, sizeof *ranks, compare_ranks);
-        good = mark_kept(&c, ranks, kept, crumbs);
+        good = mark_gone(&c, ranks, gone, crumbs);
     }
-    if (good)
-        drop(set, kept);
     close_crowd(&c);
     mem_free(ranks);
-    mem_free(kept);
     return good;
 }
 
-lmn_status strokes_thin(stroke_set *set, float apart, int width, int height, lmn_error *error)
+lmn_status strokes_thin(const stroke_set *set, float apart, int width, int height, uint8_t *gone, lmn_error *error)
 {
     if (!(apart > 0.01f) || set->stroke_count < 2)
         return LMN_OK;
-    return thin(set, apart, width, height, false) && thin(set, CRUMB_APART, width, height, true) ? LMN_OK
-                                                                                                 : error_memory(error);
+    return thin(set, apart, width, height, false, gone) && thin(set, CRUMB_APART, width, height, true, gone)
+               ? LMN_OK
+               : error_memory(error);
 }

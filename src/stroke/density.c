@@ -360,25 +360,19 @@ static bool choose(density *d, chain *chains, size_t count, uint8_t *gone)
     return true;
 }
 
-lmn_status strokes_choose(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error)
+lmn_status strokes_choose(stroke_set *set, const stroke_view *v, const stroke_options *options, uint8_t *gone,
+                          lmn_error *error)
 {
     if (!(options->detail < 1) || set->stroke_count == 0)
         return LMN_OK;
-    density  d = {.set = set, .options = options};
-    size_t   count = 0, kept = 0;
-    float   *sizes = find_sizes(v);
-    uint8_t *gone = mem_calloc(set->stroke_count, 1);
+    density d = {.set = set, .options = options};
+    size_t  count = 0;
+    float  *sizes = find_sizes(v);
     for (size_t i = 0; i < set->stroke_count && sizes; i++)
         set->strokes[i].size = sizes[set->strokes[i].piece];
-    chain *chains = sizes && gone && open_density(&d, v) ? find_chains(&d, &count) : NULL;
-    bool   good = chains && choose(&d, chains, count, gone) && strokes_close_corners(set, gone);
-    for (size_t i = 0; i < set->stroke_count && good; i++)
-        if (!gone[i])
-            set->strokes[kept++] = set->strokes[i];
-    if (good)
-        set->stroke_count = kept;
+    chain *chains = sizes && open_density(&d, v) ? find_chains(&d, &count) : NULL;
+    bool   good = chains && choose(&d, chains, count, gone);
     mem_free(sizes);
-    mem_free(gone);
     mem_free(chains);
     mem_free(d.all);
     mem_free(d.drawn);

@@ -311,15 +311,17 @@ static inline double stroke_width_on_piece(const stroke *s, double width)
     double most = s->size / 6, least = width / 3;
     return !(s->size > 0) || most > width ? width : most > least ? most : least;
 }
-/* Leaves out the chains that say least where lines crowd, by the options' detail. */
-lmn_status strokes_choose(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error);
+/* Marks the strokes of the chains that say least where lines crowd, by the options' detail: a flag each, 0 before. */
+lmn_status strokes_choose(stroke_set *set, const stroke_view *v, const stroke_options *options, uint8_t *gone,
+                          lmn_error *error);
+/* --- closing.c --- */
 /* Of strokes that are gone (a flag each), brings back short ones without which a line that is drawn would end in the
  * open. False: out of memory. */
 bool strokes_close_corners(const stroke_set *set, uint8_t *gone);
 
 /* --- crowd.c --- */
-/* Leaves out strokes that run all their length within about this many units of more important ones; the page's
- * size in units. */
-lmn_status strokes_thin(stroke_set *set, float apart, int width, int height, lmn_error *error);
+/* Marks strokes that run all their length within about this many units of more important ones that are not gone; the
+ * page's size in units. */
+lmn_status strokes_thin(const stroke_set *set, float apart, int width, int height, uint8_t *gone, lmn_error *error);
 
 #endif

@@ -47,17 +47,18 @@ static void add_ball(lmn_scene *s, const float middle[3], double radius)
     DO(lmn_scene_add_node(s, &node, &number, &error));
 }
 
-static void draw(picture *out, lmn_renderer *renderer, const lmn_scene *s, bool shadows, const char *light,
-                 const char *rule)
+static void draw(picture *out, lmn_renderer *renderer, const lmn_scene *s, bool shadows, int softness,
+                 const char *light, const char *rule)
 {
     char          text[512];
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
     lmn_drawing  *drawing = NULL;
     lmn_look     *look = NULL;
     snprintf(text, sizeof text,
-             "{\"version\": 2, \"scene\": {\"shadows\": %s, \"ground\": \"none\", \"light_direction\": %s}, \"rules\": "
+             "{\"version\": 2, \"scene\": {\"shadows\": %s, \"shadow_softness\": %d, \"ground\": \"none\", "
+             "\"light_direction\": %s}, \"rules\": "
              "[{%s}]}",
-             shadows ? "true" : "false", light, rule);
+             shadows ? "true" : "false", softness, light, rule);
     DO(lmn_look_parse(&look, text, "self-shadow", &error));
     desc.width = desc.height = SIDE;
     desc.view = LMN_VIEW_FRONT;
@@ -84,17 +85,19 @@ static const char *const deferred =
 static void none_on_itself(void **state)
 {
     static const char *const lights[] = {"[0.3, 0.5, 1]", "[-1, 0.4, 0.5]", "[0.9, 0.7, 0.1]", "[0, 1, 0]"};
-    for (int deferred_too = 0; deferred_too < 2; deferred_too++)
+    for (int way = 0; way < 4; way++)
         for (size_t i = 0; i < sizeof lights / sizeof *lights; i++) {
+            bool       deferred_too = way % 2 == 1;
+            int        softness = way / 2 * 5;
             picture    with, without;
             lmn_scene *s = NULL;
             DO(lmn_scene_create(&s, &error));
             add_ball(s, (const float[3]){0, 0, 0}, 1);
-            draw(&with, *state, s, true, lights[i], deferred_too ? deferred : forward);
-            draw(&without, *state, s, false, lights[i], deferred_too ? deferred : forward);
+            draw(&with, *state, s, true, softness, lights[i], deferred_too ? deferred : forward);
+            draw(&without, *state, s, false, softness, lights[i], deferred_too ? deferred : forward);
             if (differing(&with, &without) > SIDE * SIDE / 1000)
-                fail_msg("%d pixels of the ball lie in its own shadow, light %s, %s", differing(&with, &without),
-                         lights[i], deferred_too ? "deferred" : "forward");
+                fail_msg("%d pixels of the ball lie in its own shadow, light %s of %d degrees, %s",
+                         differing(&with, &without), lights[i], softness, deferred_too ? "deferred" : "forward");
             lmn_scene_destroy(&s);
         }
 }
@@ -102,14 +105,16 @@ static void none_on_itself(void **state)
 /* A small ball between light and ball: the disc of its shadow, seen from where the light is. */
 static void others_still_throw_theirs(void **state)
 {
-    for (int deferred_too = 0; deferred_too < 2; deferred_too++) {
+    for (int way = 0; way < 4; way++) {
+        bool       deferred_too = way % 2 == 1;
+        int        softness = way / 2; /* the border stays narrow, so that the disc can be counted */
         picture    with, without;
         lmn_scene *s = NULL;
         DO(lmn_scene_create(&s, &error));
         add_ball(s, (const float[3]){0, 0, 0}, 1);
         add_ball(s, (const float[3]){-1.4f, 1.4f, 1.4f}, 0.3);
-        draw(&with, *state, s, true, "[-1, 1, 1]", deferred_too ? deferred : forward);
-        draw(&without, *state, s, false, "[-1, 1, 1]", deferred_too ? deferred : forward);
+        draw(&with, *state, s, true, softness, "[-1, 1, 1]", deferred_too ? deferred : forward);
+        draw(&without, *state, s, false, softness, "[-1, 1, 1]", deferred_too ? deferred : forward);
         /* The ball's shadow: a disc of 0.3 around the place of the ball that faces the light, seen 55° from the side.
          */
         double scale = 0.0, expected;

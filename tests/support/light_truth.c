@@ -12,7 +12,7 @@ static const double pi = 3.14159265358979323846;
 enum { STRONG = 40 }; /* sRGB; darker pixels say too little */
 
 /* The light as the viewer sees it. */
-static dvec seen_from(const shot_view *view, dvec direction)
+dvec light_seen_from(const shot_view *view, dvec direction)
 {
     dvec back = dvec_unit(dvec_sub(view->eye, view->target)), right = dvec_unit(dvec_cross(view->up, back)),
          up = dvec_cross(back, right);
@@ -22,12 +22,13 @@ static dvec seen_from(const shot_view *view, dvec direction)
 bool light_shot(shot *out, const light_scene *l, bool kept_off)
 {
     char look[1024];
-    dvec eye = seen_from(&l->view, l->towards);
+    dvec eye = light_seen_from(&l->view, l->towards);
     snprintf(look, sizeof look,
-             "{\"version\":1,\"name\":\"t\",\"scene\":{\"fill\":%g,\"light_scale\":0.99,\"light_direction\":\"%.9f,%."
+             "{\"version\":1,\"name\":\"t\",\"scene\":{\"fill\":%g,\"rim\":%g,\"light_scale\":0.99,\"light_direction\":"
+             "\"%.9f,%."
              "9f,%.9f\",\"shadows\":%s,\"shadow_softness\":%g,\"occlusion\":%g,"
              "\"occlusion_radius\":%g},\"rules\":[{\"surface\":{\"technique\":\"lambert\",\"ambient\":0}%s}]}",
-             l->fill, eye.x, eye.y, eye.z, kept_off && l->softness >= 0 ? "true" : "false",
+             l->fill, l->rim, eye.x, eye.y, eye.z, kept_off && l->softness >= 0 ? "true" : "false",
              l->softness > 0 && kept_off ? l->softness : 0, kept_off ? l->occlusion : 0,
              l->radius > 0 ? l->radius : 0.1, l->layers ? l->layers : "");
     if (strstr(l->file, ".csg"))

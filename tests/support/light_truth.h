@@ -16,9 +16,11 @@ typedef struct light_scene {
     double      softness;          /* degrees across */
     double      occlusion, radius; /* strength; fraction of the box's diagonal */
     const char *layers;            /* the rule's, JSON behind a comma; NULL: none */
-    double      fill;              /* strength of a second light */
+    double      fill, rim;         /* strengths of a second light, and of one from behind */
 } light_scene;
 
+/* A world direction as this view sees it: right, up, to the viewer. */
+dvec light_seen_from(const shot_view *view, dvec direction);
 /* With or without what keeps light off. */
 bool light_shot(shot *out, const light_scene *l, bool kept_off);
 

@@ -77,6 +77,7 @@ static const struct {
     {"surface", "frame_colour", "likewise"},
     {"surface", "bars", "likewise"},
     {"surface", "sea", "nothing here lies level at height 0"},
+    {"surface", "spotted", "nothing here is dark and without a colour; analytic.surfaces has a ball and a slot"},
     {"scene", "ground_edge", "the parts do not stand on one level; analytic.ground has a block that does"},
     {"scene", "ground_hatch", "the parts do not stand on one level; analytic.ground has a block that does"},
     {"scene", "ground_fade", "the parts do not stand on one level; analytic.ground has a block that does"},

@@ -79,6 +79,42 @@ static void test_others_stay_away(void **state)
             fail_msg("stroke %zu came back", all[i]);
 }
 
+/* A line that ran on beside the end of another one comes back, where both of its ends meet what is drawn. */
+static void test_lines_beside_ends_come_back(void **state)
+{
+    (void)state;
+    drawing d = {.set = {0}};
+    add(&d, 10, 5, 10, 15, false);
+    add(&d, 30, 5, 30, 15, false);
+    add(&d, 10, 10, 29, 10, false); /* ends 1 mm before the second one */
+    const size_t on = add(&d, 28, 10.2, 30, 10.2, true), far = add(&d, 28, 10.4, 30, 10.4, true);
+    add(&d, 28, 10, 28, 11, false);
+    assert_true(strokes_close_corners(&d.set, d.gone));
+    assert_false(d.gone[on]);
+    assert_true(d.gone[far]);
+}
+
+/* What lies on other lines goes, but for what closes a corner: the same drawing with and without the corner. */
+static void test_thin_lines_close_corners(void **state)
+{
+    (void)state;
+    for (int cornered = 0; cornered < 2; cornered++) {
+        drawing d = {.set = {0}};
+        add(&d, 10, 10, 30, 10, false);
+        add(&d, 30.15, 5, 30.15, 15, false);
+        const size_t link = add(&d, 30, 10, 30.15, 10, false);
+        if (!cornered)
+            add(&d, 30, 10, 25, 15, false);
+        memset(d.gone, 0, sizeof d.gone);
+        for (size_t i = 0; i < d.set.stroke_count; i++)
+            d.points[2 * i + 1].arc = i == link ? 0.5f : 50;
+        assert_int_equal(strokes_thin(&d.set, 0.75f, 300, 300, d.gone, NULL), LMN_OK);
+        assert_true(d.gone[link]);
+        assert_true(strokes_close_corners(&d.set, d.gone));
+        assert_int_equal(d.gone[link], !cornered);
+    }
+}
+
 /* What is hidden neither closes a corner nor has one. */
 static void test_hidden_lines_do_not_count(void **state)
 {
@@ -97,10 +133,9 @@ static void test_hidden_lines_do_not_count(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_short_sides_come_back),
-        cmocka_unit_test(test_ways_of_two_come_back),
-        cmocka_unit_test(test_others_stay_away),
-        cmocka_unit_test(test_hidden_lines_do_not_count),
+        cmocka_unit_test(test_short_sides_come_back),    cmocka_unit_test(test_ways_of_two_come_back),
+        cmocka_unit_test(test_others_stay_away),         cmocka_unit_test(test_lines_beside_ends_come_back),
+        cmocka_unit_test(test_thin_lines_close_corners), cmocka_unit_test(test_hidden_lines_do_not_count),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
