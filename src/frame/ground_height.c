@@ -7,7 +7,7 @@
 
 #include "light/light.h"
 
-enum { BLURS = 3 };
+enum { SIDE = GROUND_SIDE / 2, BLURS = 2 };
 
 static ground_square square_of(const ground_plane *ground, const box3 *shadow)
 {
@@ -47,7 +47,7 @@ static void draw_heights(frame *f, const ground_square *s, const view_camera *be
     gpu_set_texture(f->g, "t_below", depth, false);
     gpu_set_vec4(f->g, "u_heights",
                  (float[]){(float)((below->near - s->height) / reach), (float)((below->far - below->near) / reach),
-                           (float)(s->height / reach), 0});
+                           (float)(s->height / reach), 1.0F / SIDE});
     gpu_set_vec2(f->g, "u_rising", (float)(slope[0] * reach), (float)(slope[1] * reach));
     gpu_draw_screen(f->g);
 }
@@ -69,14 +69,14 @@ gpu_texture *ground_height(frame *f, const double towards[3], const box3 *shadow
     ground_square square = square_of(&f->ground_plane, shadow);
     view_camera   below = ground_camera(&f->ground_plane, &square, true);
     double        slope[2];
-    gpu_texture  *depth = ground_depth(f, &below), *out = gpu_target_acquire(f->g, GROUND_SIDE, GROUND_SIDE, GPU_RG16F);
+    gpu_texture  *depth = ground_depth(f, &below), *out = gpu_target_acquire(f->g, SIDE, SIDE, GPU_RG16F);
     find_slope(&square, &below, towards, f->ground_plane.up, slope);
     *from_eye = ground_map_from_eye(f, &below);
     if (!gpu_failed(f->g))
         draw_heights(f, &square, &below, slope, depth, out);
     gpu_target_release(f->g, depth);
     for (int k = 0; k < BLURS && !gpu_failed(f->g); k++) {
-        gpu_texture *next = gpu_target_acquire(f->g, GROUND_SIDE, GROUND_SIDE, GPU_RG16F);
+        gpu_texture *next = gpu_target_acquire(f->g, SIDE, SIDE, GPU_RG16F);
         blur(f, out, next);
         gpu_target_release(f->g, out);
         out = next;

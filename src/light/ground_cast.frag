@@ -66,18 +66,29 @@ uniform sampler2D t_ground_height; /* light/ground_height.frag, spread */
 uniform mat4      u_ground_from_eye;
 uniform float     u_ground_fade;
 
+float near_at(vec2 pixel)
+{
+    vec2 found = textureLod(t_ground_height, (u_ground_from_eye * vec4(on_ground(pixel).xyz, 1.0)).xy, 0.0).rg;
+    return found.r / max(found.g, 1e-3);
+}
+
 /* What of the shadow is left, by the height of what throws it. */
 float left_at(vec2 pixel)
 {
-    vec2  found = textureLod(t_ground_height, (u_ground_from_eye * vec4(on_ground(pixel).xyz, 1.0)).xy, 0.0).rg;
-    float near = found.r / max(found.g, 1e-3);
+    float near = near_at(pixel);
 #ifdef FLAT
-    near = clamp((near - 0.5) / max(fwidth(near), 1e-5) + 0.5, 0.0, 1.0);
+    vec2 slope = vec2(near_at(pixel + vec2(1.0, 0.0)), near_at(pixel + vec2(0.0, 1.0))) - near;
+    near = clamp((near - 0.5) / max(length(slope), 1e-5) + 0.5, 0.0, 1.0);
 #endif
     return mix(1.0, near, u_ground_fade);
 }
 
 #if !defined(FLAT) && !defined(SOFT)
+bool may_be_dark(float dark)
+{
+    return dark > 0.0 || texelFetch(t_ground_dark, clamp(ivec2(gl_FragCoord.xy), ivec2(0), ivec2(u_size) - 1), 0).b > 0.0;
+}
+
 /* The farther what throws it, the softer its border. */
 float softened(float dark, float left)
 {
@@ -85,15 +96,20 @@ float softened(float dark, float left)
     return mix(dark, spread, clamp(1.6 * (1.0 - left), 0.0, 1.0));
 }
 #else
-float softened(float dark, float left)
-{
-    return dark;
-}
+#define HARD
 #endif
 #else
+#define HARD
 float left_at(vec2 pixel)
 {
     return 1.0;
+}
+#endif
+
+#ifdef HARD
+bool may_be_dark(float dark)
+{
+    return dark > 0.0;
 }
 
 float softened(float dark, float left)
@@ -202,7 +218,12 @@ void main()
 #ifdef HATCHED
     float shade = strokes_at(gl_FragCoord.xy);
 #else
-    float left = left_at(gl_FragCoord.xy), shade = u_ground_strength * softened(dark_at(gl_FragCoord.xy), left) * left;
+    float dark = dark_at(gl_FragCoord.xy), shade = 0.0;
+    int   there = may_be_dark(dark) ? 1 : 0;
+    for (int once = 0; once < there; once++) { /* a loop is left, where a condition would be computed both ways */
+        float left = left_at(gl_FragCoord.xy);
+        shade = u_ground_strength * softened(dark, left) * left;
+    }
 #endif
 #ifdef EDGED
     shade = max(shade, edge_at(gl_FragCoord.xy));

@@ -22,7 +22,8 @@ vec4 change_of(surface_point p, vec4 own, ivec2 pixel, ivec2 axis)
  * Fermat's spiral, the same at each pixel, so that what comes out is as smooth as the weights are. */
 surroundings surroundings_of(surface_point p, bool borders)
 {
-    const int TAPS = 32, PROBES = 8;
+    const float UNLIKE = 0.03; /* as noise of compressed pictures is not */
+    const int TAPS = 24, PROBES = 8;
     const float COLOURS = 16.0; /* 1/96 inch */
     ivec2 here = ivec2(gl_FragCoord.xy);
     vec3 own = sqrt(p.albedo.rgb), colours = own; /* as near to what is shown as it takes */
@@ -35,7 +36,7 @@ surroundings surroundings_of(surface_point p, bool borders)
         vec3 off = abs(texelFetch(t_albedo, pixel, 0).rgb - p.albedo.rgb);
         unlike += texelFetch(t_id, pixel, 0).r == p.part ? off.r + off.g + off.b : 0.0;
     }
-    int taps = unlike > 1e-3 ? TAPS : 0;
+    int taps = unlike > UNLIKE ? TAPS : 0;
     for (int i = 0; i < taps; i++) {
         float distance = sqrt((float(i) + 0.5) / float(TAPS)), angle = 2.39996323 * float(i);
         vec2 at = floor(gl_FragCoord.xy + radius * distance * vec2(cos(angle), sin(angle)));

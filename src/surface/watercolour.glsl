@@ -2,11 +2,11 @@
 #include "surface/halftone/noise.glsl"
 #include "surface/surroundings.glsl"
 
-/* How the water flowed here: −1 … 1, about 0. It goes with the model's middle over the page. */
-float flow_at(vec2 pixel, float size, uint seed)
+/* How the water flowed here, two numbers −1 … 1, about 0. They go with the model's middle over the page. */
+vec2 flow_at(vec2 pixel, float size, uint seed)
 {
     vec2 at = (pixel - u_anchor) / size;
-    return 0.7 * plane_noise(at, seed).x + 0.45 * plane_noise(2.3 * at, seed + 1u).y;
+    return 0.7 * plane_noise(at, seed) + 0.45 * plane_noise(2.3 * at, seed + 1u).yx;
 }
 
 float luminance_of(vec3 colour)
@@ -53,16 +53,17 @@ vec4 surface_colour(surface_point p)
 #else
     slope = fwidth(light);
 #endif
-    float wander = u_wander * min(slope, 0.05) * flow_at(gl_FragCoord.xy, 30.0 * page_unit(), 21u);
-    float wet = u_flow > 0.0 ? smoothstep(-0.1, 0.35, flow_at(gl_FragCoord.xy, 90.0 * page_unit(), 49u)) : 0.0;
+    float wander = u_wander * min(slope, 0.05) * flow_at(gl_FragCoord.xy, 30.0 * page_unit(), 21u).x;
+    float wet = u_flow > 0.0 ? smoothstep(-0.1, 0.35, plane_noise((gl_FragCoord.xy - u_anchor) / (90.0 * page_unit()), 49u).x) : 0.0;
     float further = mix(washes_at(dark + wander, slope, wet), washes_at(light + wander, slope, wet), first) / max(float(u_washes - 1), 1.0);
     float kept = u_reserve > 0.0 ? clamp((1.0 - u_reserve - light - wander) / max(slope, 1e-4) + 0.5, 0.0, 1.0) : 1.0;
-    float uneven = max(1.0 + u_flow * flow_at(gl_FragCoord.xy, u_flow_size, 35u), 0.0);
+    vec2  flow = flow_at(gl_FragCoord.xy, u_flow_size, 35u);
+    float uneven = max(1.0 + u_flow * flow.x, 0.0);
     float pigment = (u_pale * (1.0 + u_pooling * border) + (u_deep - u_pale) * further) * uneven * kept;
 
     float grey = luminance_of(p.albedo.rgb);
     vec3 own = clamp(shown(max(mix(vec3(grey), p.albedo.rgb, u_saturation), vec3(0.0))), 0.02, 1.0);
-    vec3 parted = 1.0 + DRIFT * u_flow * flow_at(gl_FragCoord.xy, 1.6 * u_flow_size, 63u) * vec3(1.0, 0.1, -1.0);
+    vec3 parted = 1.0 + DRIFT * u_flow * flow.y * vec3(1.0, 0.1, -1.0);
     vec3 glaze = pow(clamp(u_shade.rgb, 0.02, 1.0), further * uneven * kept * (2.0 * parted - 1.0));
     return vec4(pow(own, pigment * parted) * glaze, 1.0); /* light goes through as much pigment as there is: Beer's law */
 }
