@@ -311,7 +311,9 @@ void target_size(const frame *f, const figure_state *s, target_scale scale, int 
 {
     out[0] = f->width;
     out[1] = f->height;
-    if (scale == SCALE_APART)
+    if (scale == SCALE_HALF)
+        size_in_squares(f, 2, out);
+    else if (scale == SCALE_APART)
         size_in_squares(f, DIRECTION_APART, out);
     else if (scale == SCALE_TILE)
         size_in_squares(f, TILE_PIXELS, out);

@@ -122,8 +122,24 @@ void ground_draw(frame *f);
 void ground_plane_set(frame *f, double out[4]);
 /* From where to where a box goes along an axis. */
 void ground_range(box3 box, int axis, double out[2]);
+enum { GROUND_SIDE = 256 }; /* of maps of the ground */
+/* The ground as a square: its middle and half its side, in the two level axes; and what is highest above it. */
+typedef struct ground_square {
+    int    axes[2];
+    double middle[2], half, height;
+} ground_square;
+/* An eye that looks along the upright, with parallel rays: from below up, or from above down. Both have the same right,
+ * and the other's picture upside down. */
+view_camera ground_camera(const ground_plane *ground, const ground_square *s, bool below);
+/* The depth of all that is drawn. The caller gives it back. */
+gpu_texture *ground_depth(frame *f, const view_camera *camera);
+/* From eye space to 0 … 1 over what the eye below sees. */
+mat4 ground_map_from_eye(const frame *f, const view_camera *below);
 /* ground_cast.c: the one that the first light throws. */
 void ground_cast(frame *f);
+/* ground_height.c: how high over the ground it is what throws that, as a fraction of the light that is kept off: 1
+ * where it stands there … 0 far up; over the square that the box of the shadow lies in. The caller gives it back. */
+gpu_texture *ground_height(frame *f, const double towards[3], const box3 *shadow, mat4 *from_eye);
 
 /* What solids are evaluated for. */
 solid_view frame_solid_view(frame *f);

@@ -11,18 +11,12 @@
 
 #include "light/light.h"
 
-enum { MAP_SIDE = 256, SLABS = 6 };
+enum { SLABS = 6 };
 static const double SPREAD = 0.5;             /* standard deviation over height */
 static const double MARGIN = 1.5;             /* reaches beyond the model in which something of the shadow may lie; */
 static const double DRAWN_MARGIN = 0.8;       /* of what is dark enough for strokes */
 static const double BLUR_VARIANCE = 0.5;      /* of light/ground_blur.frag */
 static const double READ_VARIANCE = 3.0 / 16; /* of reading a picture half as fine, in its texels */
-
-/* The ground as a square: its middle and half its side, in the two level axes. */
-typedef struct ground_square {
-    int    axes[2];
-    double middle[2], half, height;
-} ground_square;
 
 static const scene_values *values_of(const frame *f)
 {
@@ -52,9 +46,7 @@ static ground_square square_of(const ground_plane *ground)
     return s;
 }
 
-/* An eye that looks along the upright, with parallel rays: from below up, or from above down. Both have the same right,
- * and the other's picture upside down. */
-static view_camera camera_along(const ground_plane *ground, const ground_square *s, bool below)
+view_camera ground_camera(const ground_plane *ground, const ground_square *s, bool below)
 {
     view_camera c = {.orthographic = true, .aspect = 1, .half_height = s->half, .view = mat4_identity()};
     double      right[3] = {1, 0, 0}, back[3] = {0, 0, 0}, up[3] = {0, 0, 0};
@@ -97,7 +89,7 @@ typedef struct ground_depths {
 static void draw_slab(frame *f, const ground_depths *d, gpu_texture *higher, int level, gpu_texture *out)
 {
     text   prelude = {0};
-    double spreads[SLABS], texel = 2 * d->below.half_height / MAP_SIDE, reach = f->ground_plane.reach;
+    double spreads[SLABS], texel = 2 * d->below.half_height / GROUND_SIDE, reach = f->ground_plane.reach;
     double heights[SLABS + 2] = {0};
     spread_of_slabs(spreads);
     for (int k = 0; k < SLABS; k++)
@@ -139,15 +131,15 @@ static void blur_slab(frame *f, gpu_texture *slab, gpu_texture *out)
     gpu_draw_screen(f->g);
 }
 
-/* The depth of all that is drawn. The caller gives it back. */
-static gpu_texture *depth_along(frame *f, const view_camera *camera)
+gpu_texture *ground_depth(frame *f, const view_camera *camera)
 {
     frame from = *f;
     from.camera = *camera;
-    from.width = from.height = MAP_SIDE;
+    from.width = from.height = GROUND_SIDE;
     from.maps = NULL;
     from.shadow = NULL;
-    from.page_depth = gpu_target_acquire(f->g, MAP_SIDE, MAP_SIDE, GPU_DEPTH32F); /* what solids are gathered in */
+    from.page_depth =
+        gpu_target_acquire(f->g, GROUND_SIDE, GROUND_SIDE, GPU_DEPTH32F); /* what solids are gathered in */
     if (!gpu_failed(f->g))
         raster_depth(&from, from.page_depth);
     return from.page_depth;
@@ -158,13 +150,13 @@ static gpu_texture *draw_map(frame *f, const ground_square *square, const view_c
 {
     stopwatch     w = watch_start(&f->profile);
     gpu_texture  *higher = NULL;
-    view_camera   above = camera_along(&f->ground_plane, square, false);
-    ground_depths d = {*below, square->height, depth_along(f, below), NULL};
-    d.from_above = gpu_failed(f->g) ? NULL : depth_along(f, &above);
+    view_camera   above = ground_camera(&f->ground_plane, square, false);
+    ground_depths d = {*below, square->height, ground_depth(f, below), NULL};
+    d.from_above = gpu_failed(f->g) ? NULL : ground_depth(f, &above);
     watch_stop(&f->profile, w, "scene", "depth along the upright");
     w = watch_start(&f->profile);
     for (int level = SLABS - 1; level >= 0 && !gpu_failed(f->g); level--) {
-        int          side = MAP_SIDE >> level;
+        int          side = GROUND_SIDE >> level;
         gpu_texture *slab = gpu_target_acquire(f->g, side, side, GPU_RG16F),
                     *spread = gpu_target_acquire(f->g, side, side, GPU_RG16F);
         if (!gpu_failed(f->g)) {
@@ -181,8 +173,7 @@ static gpu_texture *draw_map(frame *f, const ground_square *square, const view_c
     return higher;
 }
 
-/* From eye space to 0 … 1 over the map. */
-static mat4 map_from_eye(const frame *f, const view_camera *below)
+mat4 ground_map_from_eye(const frame *f, const view_camera *below)
 {
     const double origin[3] = {0, 0, 0};
     mat4         world = mat4_identity();
@@ -247,7 +238,7 @@ static void ground_set(frame *f, const view_camera *below, gpu_texture *map)
     ground_plane_set(f, plane);
     gpu_set_vec2(f->g, "u_ground_tone", v->ground_strength, v->ground_flat ? 1 : 0);
     gpu_set_texture(f->g, "t_ground_map", map, true);
-    mat4  position = map_from_eye(f, below);
+    mat4  position = ground_map_from_eye(f, below);
     float matrix[16], from_pixel[9];
     for (int k = 0; k < 16; k++)
         matrix[k] = (float)position.m[k];
@@ -361,7 +352,7 @@ void ground_draw(frame *f)
         return;
     figure        fig = f->plan->figures[0];
     ground_square square = square_of(&f->ground_plane);
-    view_camera   below = camera_along(&f->ground_plane, &square, true);
+    view_camera   below = ground_camera(&f->ground_plane, &square, true);
     figure_state  s = {.figure = &fig, .near = f->camera.near, .far = f->camera.far, .ground = true};
     bool          drawn = is_drawn_by(f, &fig);
     find_pixels(f, &square, drawn ? DRAWN_MARGIN : MARGIN, s.pixels);

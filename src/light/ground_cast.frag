@@ -61,6 +61,63 @@ float dark_at(vec2 pixel)
 }
 #endif
 
+#ifdef FADING
+uniform sampler2D t_ground_height; /* light/ground_height.frag, spread */
+uniform mat4      u_ground_from_eye;
+uniform float     u_ground_fade;
+
+float near_at(vec2 pixel)
+{
+    vec2 found = textureLod(t_ground_height, (u_ground_from_eye * vec4(on_ground(pixel).xyz, 1.0)).xy, 0.0).rg;
+    return found.r / max(found.g, 1e-3);
+}
+
+/* What of the shadow is left, by the height of what throws it. */
+float left_at(vec2 pixel)
+{
+    float near = near_at(pixel);
+#ifdef FLAT
+    vec2 slope = vec2(near_at(pixel + vec2(1.0, 0.0)), near_at(pixel + vec2(0.0, 1.0))) - near;
+    near = clamp((near - 0.5) / max(length(slope), 1e-5) + 0.5, 0.0, 1.0);
+#endif
+    return mix(1.0, near, u_ground_fade);
+}
+
+#if !defined(FLAT) && !defined(SOFT)
+bool may_be_dark(float dark)
+{
+    return dark > 0.0 || texelFetch(t_ground_dark, clamp(ivec2(gl_FragCoord.xy), ivec2(0), ivec2(u_size) - 1), 0).b > 0.0;
+}
+
+/* The farther what throws it, the softer its border. */
+float softened(float dark, float left)
+{
+    float spread = texelFetch(t_ground_dark, clamp(ivec2(gl_FragCoord.xy), ivec2(0), ivec2(u_size) - 1), 0).b;
+    return mix(dark, spread, clamp(1.6 * (1.0 - left), 0.0, 1.0));
+}
+#else
+#define HARD
+#endif
+#else
+#define HARD
+float left_at(vec2 pixel)
+{
+    return 1.0;
+}
+#endif
+
+#ifdef HARD
+bool may_be_dark(float dark)
+{
+    return dark > 0.0;
+}
+
+float softened(float dark, float left)
+{
+    return dark;
+}
+#endif
+
 /* How much of the pixel the line along the border covers. The share of a ring around it that is lit tells how far the border is. */
 float edge_at(vec2 pixel)
 {
@@ -119,6 +176,18 @@ float fullness_at(vec2 pixel, float dark)
 #endif
 }
 
+/* Where the shadow fades strokes end, one after the other, each by itself and together with those beside it. */
+float runs_out(int stroke, float along, float left)
+{
+#ifdef FADING
+    float group = along_stroke(0x5000, float(stroke) / 5.0), own = of_stroke(stroke, 0x7003);
+    float bound = 0.5 + 0.3 * own + 0.12 * group + 0.08 * along_stroke(stroke + 0x2000, 0.3 * along);
+    return smoothstep(-0.16, 0.1, left - bound);
+#else
+    return 1.0;
+#endif
+}
+
 /* Strokes whose breadth is the shadow's darkness, which nothing but a hand makes uneven; where it is full they leave nothing between. */
 float strokes_at(vec2 pixel)
 {
@@ -129,13 +198,14 @@ float strokes_at(vec2 pixel)
     float dark = dark_at(pixel);
     vec2 from = pixel - u_anchor;
     float along = dot(from, u_ground_along) / u_ground_hatch, across = dot(from, vec2(-u_ground_along.y, u_ground_along.x)) / u_ground_hatch;
-    float free = 1.0 - u_ground_strength, covered = 0.0, fullness = fullness_at(pixel, dark);
+    float free = 1.0 - u_ground_strength, covered = 0.0, fullness = fullness_at(pixel, dark), left = left_at(pixel);
     int middle = int(floor(across));
     for (int stroke = middle - 1; stroke <= middle + 1 && fullness > 0.0; stroke++) {
         float sway = free * (0.32 * of_stroke(stroke, 0x7000) + 0.3 * along_stroke(stroke, 0.05 * along));
         float ends = 1.5 + 0.5 * of_stroke(stroke, 0x7001); /* some run out sooner than others */
         float breadth = u_ground_strength * clamp(fullness * ends - (ends - 1.0) * free, 0.0, 1.0);
         breadth *= 1.0 + free * (0.35 * of_stroke(stroke, 0x7002) + 0.45 * along_stroke(stroke + 0x1000, 0.08 * along));
+        breadth *= runs_out(stroke, along, left);
         float inside = 0.5 * breadth - abs(across - float(stroke) - 0.5 - sway);
         covered += clamp(inside * u_ground_hatch + 0.5, 0.0, min(breadth * u_ground_hatch, 1.0));
     }
@@ -148,7 +218,12 @@ void main()
 #ifdef HATCHED
     float shade = strokes_at(gl_FragCoord.xy);
 #else
-    float shade = u_ground_strength * dark_at(gl_FragCoord.xy);
+    float dark = dark_at(gl_FragCoord.xy), shade = 0.0;
+    int   there = may_be_dark(dark) ? 1 : 0;
+    for (int once = 0; once < there; once++) { /* a loop is left, where a condition would be computed both ways */
+        float left = left_at(gl_FragCoord.xy);
+        shade = u_ground_strength * softened(dark, left) * left;
+    }
 #endif
 #ifdef EDGED
     shade = max(shade, edge_at(gl_FragCoord.xy));

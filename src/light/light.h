@@ -24,7 +24,7 @@ typedef struct scene_values {
     bool        shadows;
     float       shadow_softness, occlusion, occlusion_radius;
     int32_t     tone_range, ground;
-    float       ground_strength, ground_reach, ground_edge, ground_hatch, ground_angle, ground_smoothing;
+    float       ground_strength, ground_reach, ground_fade, ground_edge, ground_hatch, ground_angle, ground_smoothing;
     bool        ground_flat;
     colour      ground_colour;
     float       focus, focus_at, focus_depth;

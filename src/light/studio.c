@@ -60,11 +60,16 @@ static const param params[] = {
                     .cpu_only = true, .only_if = "ground",
                     .doc = "How dark the ground is where it is touched, or where no light falls."),
     PARAM_FLOAT_ROW(scene_values, ground_reach, .def = 0.15, .min = 0.005, .max = 1, .soft_min = 0.03, .soft_max = 0.4,
-                    .unit = UNIT_FRACTION, .logarithmic = true, .cpu_only = true, .only_if = "ground=contact",
+                    .unit = UNIT_FRACTION, .logarithmic = true, .cpu_only = true, .only_if = "ground",
                     .doc = "Height over the ground in which a shadow fades to a third, fraction of the model's "
-                           "diagonal; the higher, the softer it is, too."),
-    PARAM_BOOL_ROW(scene_values, ground_flat, .def = 0, .cpu_only = true, .only_if = "ground=contact",
-                   .doc = "The shadow is one flat tone with a border, instead of one that fades."),
+                           "diagonal; the higher, the softer it is, too. A cast one by ground_fade."),
+    PARAM_FLOAT_ROW(scene_values, ground_fade, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
+                    .only_if = "ground=cast",
+                    .doc = "How much paler a cast shadow gets with the height of what throws it: 0 it is even, 1 what "
+                           "is thrown from high up is gone. Its border gets softer as it fades, strokes run out."),
+    PARAM_BOOL_ROW(scene_values, ground_flat, .def = 0, .cpu_only = true, .only_if = "ground",
+                   .doc = "The shadow is one flat tone with a border, instead of one that fades; a cast one is two "
+                          "tones."),
     PARAM_COLOUR_ROW(scene_values, ground_colour, .def_colour = {0.09f, 0.09f, 0.12f, 1}, .cpu_only = true,
                      .only_if = "ground", .doc = "Colour of the shadow where it is a tone."),
     PARAM_FLOAT_ROW(scene_values, ground_edge, .def = 0, .min = 0, .max = 12, .soft_max = 2, .unit = UNIT_PT,

@@ -7,11 +7,19 @@
 /* So many rounds of the pass for a radius in pixels. */
 int form_rounds(double radius);
 
-/* `ROUNDS`: int (*)(const void *values), of the technique. */
-#define FORM_PASS(ROUNDS)                                                                                              \
+/* `ROUNDS`: int (*)(const void *values), of the technique. All is spread on half the pixels each way, and then found on
+ * each pixel. */
+#define FORM_PASSES(ROUNDS)                                                                                            \
+    {.name = "form, spread",                                                                                           \
+     .shader = "surface/form_spread.frag",                                                                             \
+     .reads = {TARGET_FORM_HALF, TARGET_NORMAL_DEPTH, TARGET_ID},                                                      \
+     .writes = TARGET_FORM_HALF,                                                                                       \
+     .rounds = (ROUNDS),                                                                                               \
+     .when = "smoothing>0",                                                                                            \
+     .prepares = true},                                                                                                \
     {                                                                                                                  \
-        .name = "form", .shader = "surface/form.frag", .reads = {TARGET_FORM, TARGET_NORMAL_DEPTH, TARGET_ID},         \
-        .writes = TARGET_FORM, .rounds = (ROUNDS), .when = "smoothing>0", .prepares = true                             \
+        .name = "form", .shader = "surface/form.frag", .reads = {TARGET_FORM_HALF, TARGET_NORMAL_DEPTH, TARGET_ID},    \
+        .writes = TARGET_FORM, .when = "smoothing>0", .prepares = true                                                 \
     }
 
 #endif

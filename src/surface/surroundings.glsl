@@ -18,16 +18,26 @@ vec4 change_of(surface_point p, vec4 own, ivec2 pixel, ivec2 axis)
     return low && high ? 0.5 * (upper - lower) : low ? own - lower : high ? upper - own : vec4(0.0);
 }
 
-/* Colours over a disc of u_smoothing pixels, but at most COLOURS: not across borders of parts, creases and steps of depth, and of them only those that are alike. Taps lie on
+/* Colours over a disc of u_smoothing pixels, but at most COLOURS: not across borders of parts, creases and steps of depth, and of them only those that are alike; and how much of the disc is the surface's own, if its `borders` are asked for. Taps lie on
  * Fermat's spiral, the same at each pixel, so that what comes out is as smooth as the weights are. */
-surroundings surroundings_of(surface_point p)
+surroundings surroundings_of(surface_point p, bool borders)
 {
-    const int TAPS = 32;
+    const float UNLIKE = 0.03; /* as noise of compressed pictures is not */
+    const int TAPS = 24, PROBES = 8;
     const float COLOURS = 16.0; /* 1/96 inch */
     ivec2 here = ivec2(gl_FragCoord.xy);
     vec3 own = sqrt(p.albedo.rgb), colours = own; /* as near to what is shown as it takes */
     float weights = 1.0, colour_weights = 1.0, all = 1.0, radius = min(u_smoothing, COLOURS * page_unit());
-    for (int i = 0; i < TAPS; i++) {
+    /* One colour all around, as most models have: there is nothing to smooth. */
+    float unlike = borders ? 1.0 : 0.0;
+    for (int i = 0; i < PROBES; i++) {
+        float distance = i < PROBES / 2 ? 0.95 : 0.5, angle = 1.5707963 * float(i) + (i < PROBES / 2 ? 0.0 : 0.7853982);
+        ivec2 pixel = ivec2(clamp(floor(gl_FragCoord.xy + radius * distance * vec2(cos(angle), sin(angle))), vec2(0.0), u_size - 1.0));
+        vec3 off = abs(texelFetch(t_albedo, pixel, 0).rgb - p.albedo.rgb);
+        unlike += texelFetch(t_id, pixel, 0).r == p.part ? off.r + off.g + off.b : 0.0;
+    }
+    int taps = unlike > UNLIKE ? TAPS : 0;
+    for (int i = 0; i < taps; i++) {
         float distance = sqrt((float(i) + 0.5) / float(TAPS)), angle = 2.39996323 * float(i);
         vec2 at = floor(gl_FragCoord.xy + radius * distance * vec2(cos(angle), sin(angle)));
         ivec2 pixel = ivec2(clamp(at, vec2(0.0), u_size - 1.0));

@@ -7,7 +7,7 @@ typedef struct toon {
     int32_t bands;
     float   softness, gradation, shadow, light, highlight, saturation, smoothing, darkest, lightness, blacks, feather,
         spacing, spotted;
-    colour shade, ink;
+    colour shade, bright, ink;
     bool   seed_blur;
 } toon;
 
@@ -24,6 +24,8 @@ static const param params[] = {
                     .doc = "Brightness of the darkest tone."),
     PARAM_COLOUR_ROW(toon, shade, .def_colour = {1, 1, 1, 1}, .as_light = true,
                      .doc = "Colour of the light that the darkest tone has; lighter ones have less of it."),
+    PARAM_COLOUR_ROW(toon, bright, .def_colour = {1, 1, 1, 1}, .as_light = true,
+                     .doc = "Colour of the light that the lightest tone has; darker ones have less of it."),
     PARAM_FLOAT_ROW(toon, light, .def = 1, .min = 0, .max = 2, .soft_max = 1.2, .unit = UNIT_FRACTION,
                     .doc = "Brightness of the lightest tone."),
     PARAM_FLOAT_ROW(toon, highlight, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_FRACTION,
@@ -64,7 +66,7 @@ static int rounds_of(const void *values)
 }
 
 static const pass passes[] = {
-    FORM_PASS(rounds_of),
+    FORM_PASSES(rounds_of),
     {.name = "blur tones",
      .shader = "surface/toon_blur.frag",
      .reads = {TARGET_SHADE, TARGET_ID},

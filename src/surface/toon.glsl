@@ -69,11 +69,13 @@ float stripe(float along)
     return length_ * (1.0 - sqrt(abs(2.0 * fract(along) - 1.0)));
 }
 
-/* By how much more than its own turn from the light a place is black: where little of the sky is seen, and what is dark itself. Where less than a quarter of the sky is hidden lies no cleft:
+/* By how much more than its own turn from the light a place is black: where little of the sky is seen, and what is dark itself and has no colour to lose. Where less than a quarter of the sky is hidden lies no cleft:
  * what is measured there is grain. */
 float spotted(surface_point p)
 {
     float dark = 1.0 - smoothstep(0.15, 0.4, dot(shown(p.albedo.rgb), vec3(0.2126, 0.7152, 0.0722)));
+    vec3 colour = shown(p.albedo.rgb);
+    dark *= 1.0 - smoothstep(0.06, 0.16, max(max(colour.r, colour.g), colour.b) - min(min(colour.r, colour.g), colour.b));
     return u_spotted * (clamp(1.5 - 2.0 * sky_fraction(p), 0.0, 1.0) + 0.3 * dark);
 }
 
@@ -127,7 +129,7 @@ vec4 surface_colour(surface_point p)
         return vec4(shown(p.albedo.rgb), 1.0);
     float arrives = unshadowed(p);
 #ifdef SHADED_LATER
-    surroundings around = surroundings_of(p);
+    surroundings around = surroundings_of(p, false);
     surface_point right = p, above = p;
     arrives = around.light;
     p.normal = around.normal;
@@ -153,7 +155,7 @@ vec4 surface_colour(surface_point p)
     float slope = fwidth(light), dark_slope = fwidth(dark);
 #endif
     float tone = u_bands > 1 ? mix(banded(dark, dark_slope), banded(light, slope), lit) : 1.0;
-    vec3 brightness = mix(u_shadow, u_light, tone) * mix(u_shade.rgb, vec3(1.0), tone);
+    vec3 brightness = mix(u_shadow, u_light, tone) * mix(u_shade.rgb, u_bright.rgb, tone);
     float grey = dot(p.albedo.rgb, vec3(0.2126, 0.7152, 0.0722));
     vec3 colour = max(mix(vec3(grey), p.albedo.rgb, u_saturation), vec3(0.0)) * brightness;
     colour = light_shown_as(min(legible(shown(min(colour, vec3(1.0)))), vec3(1.0)));

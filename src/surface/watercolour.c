@@ -47,7 +47,7 @@ static int rounds_of(const void *values)
     return form_rounds((double)((const watercolour *)values)->smoothing);
 }
 
-static const pass passes[] = {FORM_PASS(rounds_of)};
+static const pass passes[] = {FORM_PASSES(rounds_of)};
 
 const technique surface_watercolour = {
     .name = "watercolour",

@@ -2,11 +2,11 @@
 #include "surface/halftone/noise.glsl"
 #include "surface/surroundings.glsl"
 
-/* How the water flowed here: −1 … 1, about 0. It goes with the model's middle over the page. */
-float flow_at(vec2 pixel, float size, uint seed)
+/* How the water flowed here, two numbers −1 … 1, about 0. They go with the model's middle over the page. */
+vec2 flow_at(vec2 pixel, float size, uint seed)
 {
     vec2 at = (pixel - u_anchor) / size;
-    return 0.7 * plane_noise(at, seed).x + 0.45 * plane_noise(2.3 * at, seed + 1u).y;
+    return 0.7 * plane_noise(at, seed) + 0.45 * plane_noise(2.3 * at, seed + 1u).yx;
 }
 
 float luminance_of(vec3 colour)
@@ -14,23 +14,29 @@ float luminance_of(vec3 colour)
     return dot(colour, vec3(0.2126, 0.7152, 0.0722));
 }
 
-/* How many of the further washes lie here, each with what its end has carried to it; `slope`: how fast the light changes, by a pixel. */
-float washes_at(float light, float slope)
+const float WET = 0.3;   /* of the further washes, what goes over gradually from where more to where less of them lies: it ran before it was dry */
+const float LOST = 20.0; /* how wide ends get where the paper was wet, 1/96 inch */
+const float DRIFT = 0.3; /* how far pigments part where the water flowed, for all the unevenness there is */
+
+/* How many of the further washes lie here, each with what its end has carried to it, where the paper was dry; `slope`: how fast the light changes, by a pixel; `wet`: 0 … 1. Ends are
+ * found on dry paper and lost on wet. */
+float washes_at(float light, float slope, float wet)
 {
-    float sum = 0.0, steep = max(slope, 1e-5);
+    float sum = 0.0, steep = max(slope, 1e-5), width = mix(max(u_softness, 1.0), max(u_softness, LOST * page_unit()), wet);
     for (int k = 1; k < u_washes; k++) {
         float inside = (float(u_washes - k) / float(u_washes) - light) / steep; /* pixels */
-        float cover = clamp(inside / max(u_softness, 1.0) + 0.5, 0.0, 1.0);
-        sum += cover * (1.0 + u_pooling * exp(-max(inside, 0.0) / u_pool) * step(1e-4, slope));
+        float cover = clamp(inside / width + 0.5, 0.0, 1.0);
+        cover *= cover * (3.0 - 2.0 * cover);
+        sum += cover * (1.0 + (1.0 - wet) * u_pooling * exp(-max(inside, 0.0) / u_pool) * step(1e-4, slope));
     }
-    return sum;
+    return mix(sum, float(u_washes - 1) * (1.0 - light), WET);
 }
 
 vec4 surface_colour(surface_point p)
 {
     float border = 0.0, slope, first = unshadowed(p);
 #ifdef SHADED_LATER
-    surroundings around = surroundings_of(p);
+    surroundings around = surroundings_of(p, true);
     surface_point right = p, above = p;
     first = around.light;
     p.normal = around.normal;
@@ -47,14 +53,17 @@ vec4 surface_colour(surface_point p)
 #else
     slope = fwidth(light);
 #endif
-    float wander = u_wander * min(slope, 0.05) * flow_at(gl_FragCoord.xy, 18.0 * page_unit(), 21u);
-    float further = mix(washes_at(dark + wander, slope), washes_at(light + wander, slope), first) / max(float(u_washes - 1), 1.0);
+    float wander = u_wander * min(slope, 0.05) * flow_at(gl_FragCoord.xy, 30.0 * page_unit(), 21u).x;
+    float wet = u_flow > 0.0 ? smoothstep(-0.1, 0.35, plane_noise((gl_FragCoord.xy - u_anchor) / (90.0 * page_unit()), 49u).x) : 0.0;
+    float further = mix(washes_at(dark + wander, slope, wet), washes_at(light + wander, slope, wet), first) / max(float(u_washes - 1), 1.0);
     float kept = u_reserve > 0.0 ? clamp((1.0 - u_reserve - light - wander) / max(slope, 1e-4) + 0.5, 0.0, 1.0) : 1.0;
-    float uneven = max(1.0 + u_flow * flow_at(gl_FragCoord.xy, u_flow_size, 35u), 0.0);
+    vec2  flow = flow_at(gl_FragCoord.xy, u_flow_size, 35u);
+    float uneven = max(1.0 + u_flow * flow.x, 0.0);
     float pigment = (u_pale * (1.0 + u_pooling * border) + (u_deep - u_pale) * further) * uneven * kept;
 
     float grey = luminance_of(p.albedo.rgb);
     vec3 own = clamp(shown(max(mix(vec3(grey), p.albedo.rgb, u_saturation), vec3(0.0))), 0.02, 1.0);
-    vec3 glaze = pow(clamp(u_shade.rgb, 0.02, 1.0), vec3(further * uneven * kept));
-    return vec4(pow(own, vec3(pigment)) * glaze, 1.0); /* light goes through as much pigment as there is: Beer's law */
+    vec3 parted = 1.0 + DRIFT * u_flow * flow.y * vec3(1.0, 0.1, -1.0);
+    vec3 glaze = pow(clamp(u_shade.rgb, 0.02, 1.0), further * uneven * kept * (2.0 * parted - 1.0));
+    return vec4(pow(own, pigment * parted) * glaze, 1.0); /* light goes through as much pigment as there is: Beer's law */
 }

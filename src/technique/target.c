@@ -8,6 +8,7 @@ const target_row target_rows[TARGET_COUNT] = {
     /* Normals as TARGET_NORMAL_DEPTH has them, towards the viewer's side, over a length on paper: what light is told by
      * where few tones are to show the form. */
     [TARGET_FORM] = {"t_form", TEXEL_RGBA32F, .owner = OWNER_LAYER, .empty = {0, 0, 1, 0}},
+    [TARGET_FORM_HALF] = {"t_form_half", TEXEL_RGBA32F, SCALE_HALF, .owner = OWNER_LAYER, .empty = {0, 0, 1, 0}},
     [TARGET_SHADE] = {"t_shade", TEXEL_RGBA16F, .owner = OWNER_LAYER, .filtered = true},
     [TARGET_REST] = {"t_rest_position", TEXEL_RGBA32F, .owner = OWNER_LAYER},
     [TARGET_DETAIL] = {"t_detail", TEXEL_RGBA8, .owner = OWNER_LAYER},

@@ -13,6 +13,7 @@ typedef enum target {
     TARGET_ID,
     TARGET_ALBEDO,
     TARGET_FORM,
+    TARGET_FORM_HALF,
     TARGET_SHADE,
     TARGET_REST,
     TARGET_VELOCITY,
@@ -62,6 +63,7 @@ typedef enum target_format {
 /* Texels of a picture. */
 typedef enum target_scale {
     SCALE_PAGE,  /* one a pixel */
+    SCALE_HALF,  /* one for 2² pixels, of that at their lower left */
     SCALE_APART, /* one for DIRECTION_APART² pixels, of the one in its middle */
     SCALE_CELL,  /* one a cell of the figure's perturbation, at its corners */
     SCALE_TILE,  /* one a square of TILE_PIXELS² pixels */

@@ -615,6 +615,96 @@ static void scraps_of_shadow_are_left_out(void)
     shape_release(&model);
 }
 
+/* A smoothed border keeps the corners of what has straight edges. */
+static void calm_shadows_keep_corners(void)
+{
+    const dvec light = dvec_of(-0.7, 0.75, 0.3);
+    shape      model = {0};
+    shot       calm;
+    shape_box(&model, "block", dvec_of(cast_low[0], cast_low[1], cast_low[2]),
+              dvec_of(cast_high[0], cast_high[1], cast_high[2]));
+    if (shoot_cast(&calm, &model, "\"ground_strength\":1,\"ground_smoothing\":\"24px\"", false)) {
+        int          known = 0, wrong = 0;
+        signed char *truth = cast_truth(&calm, light);
+        for (int i = 0; i < CAST_SIDE * CAST_SIDE; i++) {
+            known += truth[i] != UNKNOWN;
+            wrong +=
+                truth[i] != UNKNOWN && (calm.picture[4 * i] < 128) != (truth[i] == 1) && !is_near_border(truth, i, 1);
+        }
+        check_at_least("ground", known, 3000, "pixels of ground");
+        check_at_most("ground", wrong, 2, "that are drawn otherwise, smoothed over 24 pixels");
+        free(truth);
+        shot_release(&calm);
+    }
+    shape_release(&model);
+}
+
+/* How dark the ground is on the mean where the shadow of the block's side falls that lies between two heights. */
+static double mean_dark(const shot *s, const signed char *truth, dvec light, double low, double high)
+{
+    double sum = 0;
+    int    count = 0;
+    dvec   towards = in_scene(s, light);
+    for (int i = 0; i < CAST_SIDE * CAST_SIDE; i++) {
+        dvec origin, way;
+        if (truth[i] != 1 || is_near_border(truth, i, 4))
+            continue;
+        shot_ray(s, i % CAST_SIDE + 0.5, i / CAST_SIDE + 0.5, &origin, &way);
+        dvec   at = dvec_add(origin, dvec_scale(way, -origin.y / way.y));
+        double in[2] = {INFINITY, INFINITY};
+        for (int k = 0; k < 2; k++) { /* the block is entered where the later of its two sides is */
+            double from = k ? at.z : at.x, by = (k ? towards.z : towards.x) / towards.y;
+            double side = by > 0 ? cast_low[2 * k] : cast_high[2 * k];
+            in[k] = (side - from) / by;
+        }
+        double height = fmax(in[0], in[1]);
+        if (height >= low && height < high) {
+            sum += 255 - s->picture[4 * i];
+            count++;
+        }
+    }
+    return count ? sum / count / 255 : NAN;
+}
+
+/* What is thrown from higher up is paler; what stands there throws all of it. */
+static void cast_shadows_fade(void)
+{
+    const dvec light = dvec_of(-0.7, 0.75, 0.3);
+    shape      model = {0};
+    shot       even, fading, two;
+    shape_box(&model, "block", dvec_of(cast_low[0], cast_low[1], cast_low[2]),
+              dvec_of(cast_high[0], cast_high[1], cast_high[2]));
+    if (shoot_cast(&even, &model, "\"ground_strength\":1", false) &&
+        shoot_cast(&fading, &model, "\"ground_strength\":1,\"ground_fade\":0.8,\"ground_reach\":0.2", false) &&
+        shoot_cast(&two, &model, "\"ground_strength\":1,\"ground_fade\":0.8,\"ground_reach\":0.2,\"ground_flat\":true",
+                   false)) {
+        signed char *truth = cast_truth(&even, light);
+        double       top = cast_high[1], low = mean_dark(&fading, truth, light, 0, 0.1 * top),
+               middle = mean_dark(&fading, truth, light, 0.3 * top, 0.5 * top),
+               high = mean_dark(&fading, truth, light, 0.7 * top, top);
+        check_at_least("ground", mean_dark(&even, truth, light, 0.7 * top, top), 0.95, "dark where it does not fade");
+        check_at_least("ground", low, 0.7, "dark at the foot");
+        check_at_most("ground", middle, 0.85 * low, "  farther off");
+        check_at_most("ground", high, 0.85 * middle, "  and farther");
+        int greys = 0, all = 0;
+        for (int i = 0; i < CAST_SIDE * CAST_SIDE; i++) {
+            int most = 0;
+            for (int k = 0; k < 2; k++)
+                most |= abs(two.picture[4 * i] -
+                            two.picture[4 * (i + (k ? CAST_SIDE : 1)) % (4 * CAST_SIDE * CAST_SIDE)]) > 3;
+            bool inner = truth[i] == 1 && !is_near_border(truth, i, 3);
+            all += inner;
+            greys += inner && most;
+        }
+        check_at_most("ground", (double)greys / fmax(all, 1), 0.06, "of two tones what lies between them");
+        free(truth);
+        shot_release(&even);
+        shot_release(&fading);
+        shot_release(&two);
+    }
+    shape_release(&model);
+}
+
 /* Things that stand at different heights would throw their shadows far below themselves. */
 static void cast_shadows_need_a_level(void)
 {
@@ -657,6 +747,8 @@ int main(int argc, char **argv)
         {"hatched", cast_shadows_are_hatched},
         {"level", cast_shadows_need_a_level},
         {"scraps", scraps_of_shadow_are_left_out},
+        {"corners", calm_shadows_keep_corners},
+        {"fade", cast_shadows_fade},
     };
     int status = check_main(argc, argv, "ground", cases, sizeof cases / sizeof *cases);
     shot_end();
