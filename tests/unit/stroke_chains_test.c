@@ -350,9 +350,12 @@ static void what_is_cut_is_joined(void **state)
         if (status == LMN_OK) {
             const stroke *s = set.strokes, *joined = s[0].count > 2 ? &s[0] : &s[1], *other = joined == s ? s + 1 : s;
             assert_int_equal(set.stroke_count, 2);
-            assert_int_equal(joined->count, 3);
-            assert_float_equal(set.points[joined->first].x + set.points[joined->first + 2].x, 200, 1e-3);
-            assert_float_equal(set.points[joined->first + 1].x, 95, 1e-3);
+            const stroke_point *p = &set.points[joined->first];
+            int                 meets = 0;
+            for (uint32_t i = 1; i + 1 < joined->count; i++)
+                meets += fabsf(p[i].x - 95) < 0.1f && fabsf(p[i].y - 50.75f) < 0.1f;
+            assert_float_equal(p[0].x + p[joined->count - 1].x, 200, 1e-3);
+            assert_true(meets > 0);
             assert_int_equal(other->chain, 2);
             assert_int_equal(other->count, 2);
         }
