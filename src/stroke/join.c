@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "stroke/join_pairs.h"
 
 /* All lengths are on paper, in units of 1/96 inch. Ends this far apart may be linked (τ, half a millimetre); those
  * closer than OVERLAP even where one runs past the other. */
@@ -41,8 +42,6 @@
 /* Lines of form must be longer than others by this factor, but no longer than this fraction of the page. */
 #define FORM_SHORTEST 16.0
 #define FORM_FRACTION (1.0 / 64)
-/* Of ends in one cell, behind as many surfaces, so many are looked at. */
-enum { MEETING_MOST = 256 };
 /* What overlaps is joined, and may overlap with others then: so often. */
 enum { TRIMS = 3 };
 
@@ -53,28 +52,11 @@ typedef struct stroke_end {
     int32_t column, row;
 } stroke_end;
 
-/* What tells whether two ends can be linked at all; those of a bucket lie side by side, the last end first. */
-typedef struct kept_end {
-    float    x, y;
-    uint32_t number, hidden_by, chain;
-    int32_t  column, row;
-} kept_end;
-
-typedef struct candidate {
-    float    cost;
-    uint32_t ends[2];
-} candidate;
-
 typedef struct joiner {
     stroke_set           *set;
     double                focal;
     bool                  orthographic;
     stroke_end           *ends;
-    kept_end             *kept;   /* of those that can be linked, by buckets of cells */
-    uint32_t             *starts; /* per bucket, and one more: its first one */
-    size_t                mask, columns;
-    candidate            *candidates;
-    size_t                candidate_count, candidate_capacity;
     uint32_t             *partners;    /* per end; NO_VERTEX: none */
     uint8_t              *rings;       /* per chain that is made of links: has it come full circle over a gap? */
     uint32_t              first_chain; /* that is made of links */
@@ -104,50 +86,13 @@ static stroke_end end_of(const joiner *j, uint32_t number)
     return (stroke_end){from->x, from->y, from->depth, x * fraction, y * fraction, cell_of(from->x), cell_of(from->y)};
 }
 
-/* Ends are linked only where as many surfaces lie in front of both, so that each number has cells of its own. Cells
- * side by side have buckets side by side. */
-static size_t bucket_of(const joiner *j, int32_t column, int32_t row, uint32_t hidden_by)
-{
-    return ((size_t)(uint32_t)row * j->columns + (size_t)(uint32_t)column +
-            (size_t)hidden_by * UINT64_C(0x9E3779B97F4A7C15)) &
-           j->mask;
-}
-
-static void fill_buckets(joiner *j, uint32_t count)
-{
-    for (uint32_t i = 0; i < count; i++)
-        if (!j->set->strokes[i / 2].closed)
-            j->starts[1 + bucket_of(j, j->ends[i].column, j->ends[i].row, j->set->strokes[i / 2].hidden_by)]++;
-    for (size_t k = 0; k <= j->mask; k++)
-        j->starts[k + 1] += j->starts[k];
-    /* Backwards, which moves each start to its bucket's end, where the next one begins. */
-    for (uint32_t i = count; i-- > 0;) {
-        const stroke     *s = &j->set->strokes[i / 2];
-        const stroke_end *e = &j->ends[i];
-        if (!s->closed)
-            j->kept[j->starts[bucket_of(j, e->column, e->row, s->hidden_by)]++] =
-                (kept_end){e->x, e->y, i, s->hidden_by, s->chain, e->column, e->row};
-    }
-    memmove(j->starts + 1, j->starts, (j->mask + 1) * sizeof *j->starts);
-    j->starts[0] = 0;
-}
-
 static bool put_ends(joiner *j)
 {
-    size_t count = 2 * j->set->stroke_count, slots = 64;
-    j->columns = 8;
-    for (; slots < count; slots *= 2)
-        j->columns *= slots > j->columns * j->columns ? 2 : 1;
-    j->mask = slots - 1;
+    size_t count = 2 * j->set->stroke_count;
     j->ends = mem_alloc((count + 1) * sizeof *j->ends);
-    j->kept = mem_alloc((count + 1) * sizeof *j->kept);
-    j->starts = mem_calloc(slots + 1, sizeof *j->starts);
-    if (!j->ends || !j->kept || !j->starts)
-        return false;
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count && j->ends; i++)
         j->ends[i] = end_of(j, i);
-    fill_buckets(j, (uint32_t)count);
-    return true;
+    return j->ends != NULL;
 }
 
 static const stroke_point *point_at_end(const stroke_set *set, uint32_t number)
@@ -218,45 +163,42 @@ static float cost_of(const joiner *j, uint32_t a, uint32_t b)
     return cost < MOST ? cost : -1;
 }
 
-/* Links of an end with those of a cell that come behind it. */
-static bool find_in_cell(joiner *j, const kept_end *a, int32_t column, int32_t row)
+/* The same for ends of cells that touch each other; of two chains, for those that are near enough whatever is rounded. */
+static float cost_near(void *user, uint32_t a, uint32_t b)
 {
-    size_t          bucket = bucket_of(j, column, row, a->hidden_by);
-    const kept_end *b = j->kept + j->starts[bucket], *end = j->kept + j->starts[bucket + 1];
-    for (int left = MEETING_MOST; b < end && left && b->number > a->number; b++) {
-        if (b->column != column || b->row != row || b->hidden_by != a->hidden_by)
-            continue;
-        left--;
-        double x = (double)b->x - a->x, y = (double)b->y - a->y;
-        if (x * x + y * y > REACH_OF_LINKS * REACH_OF_LINKS && b->chain != a->chain)
-            continue;
-        float cost = cost_of(j, a->number, b->number);
-        if (cost < 0)
-            continue;
-        if (!mem_grow((void **)&j->candidates, &j->candidate_capacity, j->candidate_count + 1, sizeof *j->candidates))
-            return false;
-        j->candidates[j->candidate_count++] = (candidate){cost, {a->number, b->number}};
+    const joiner     *j = user;
+    const stroke_end *p = &j->ends[a], *q = &j->ends[b];
+    double            x = (double)q->x - p->x, y = (double)q->y - p->y;
+    if (abs(p->column - q->column) > 1 || abs(p->row - q->row) > 1)
+        return -1;
+    if (x * x + y * y > REACH_OF_LINKS * REACH_OF_LINKS && j->set->strokes[a / 2].chain != j->set->strokes[b / 2].chain)
+        return -1;
+    return cost_of(j, a, b);
+}
+
+/* Ends of the same chain with next to nothing between, which follow each other, wherever they point. */
+static void offer_bridges(void *user, uint32_t end, end_search *search)
+{
+    const joiner     *j = user;
+    const stroke_set *set = j->set;
+    const bool        last = end & 1;
+    const float       arc = point_at_end(set, end)->arc;
+    const uint32_t    chain = set->strokes[end / 2].chain;
+    for (size_t i = end / 2; last ? ++i < set->stroke_count : i-- > 0;) {
+        const uint32_t other = 2 * (uint32_t)i + !last;
+        if (set->strokes[i].chain != chain || fabsf(point_at_end(set, other)->arc - arc) > j->bridged)
+            return;
+        if (is_bridge(j, end, other))
+            end_search_offer(search, other);
     }
-    return true;
 }
 
-static bool find_candidates(joiner *j)
+static end_place place_of(const joiner *j, uint32_t end)
 {
-    for (size_t i = 0; i < j->starts[j->mask + 1]; i++)
-        for (int32_t cell = 0; cell < 9; cell++)
-            if (!find_in_cell(j, &j->kept[i], j->kept[i].column + cell % 3 - 1, j->kept[i].row + cell / 3 - 1))
-                return false;
-    return true;
-}
-
-static int compare_candidates(const void *a, const void *b)
-{
-    const candidate *p = a, *q = b;
-    if (p->cost != q->cost)
-        return p->cost < q->cost ? -1 : 1;
-    return p->ends[0] != q->ends[0]  ? (p->ends[0] < q->ends[0] ? -1 : 1)
-           : p->ends[1] < q->ends[1] ? -1
-                                     : p->ends[1] > q->ends[1];
+    const stroke     *s = &j->set->strokes[end / 2];
+    const stroke_end *e = &j->ends[end];
+    const bool        points = e->out_x != 0 || e->out_y != 0;
+    return (end_place){e->x, e->y, points ? atan2f(e->out_y, e->out_x) : NAN, s->closed ? END_OF_NONE : s->hidden_by};
 }
 
 /* The chain that stands for all of a whole. */
@@ -267,32 +209,35 @@ static uint32_t whole_of(joiner *j, uint32_t chain)
     return chain;
 }
 
-static void link_ends(joiner *j, uint8_t *taken, const uint32_t ends[2])
+static void link_ends(joiner *j, uint32_t a, uint32_t b)
 {
-    const stroke *s = &j->set->strokes[ends[0] / 2], *t = &j->set->strokes[ends[1] / 2];
-    if (taken[ends[0]] || taken[ends[1]])
-        return;
-    taken[ends[0]] = taken[ends[1]] = 1;
+    const stroke *s = &j->set->strokes[a / 2], *t = &j->set->strokes[b / 2];
     j->wholes[whole_of(j, s->chain)] = whole_of(j, t->chain);
-    if (are_alike(s, t) && !meet_at_corner(j, ends[0], ends[1])) {
-        j->partners[ends[0]] = ends[1];
-        j->partners[ends[1]] = ends[0];
+    if (are_alike(s, t) && !meet_at_corner(j, a, b)) {
+        j->partners[a] = b;
+        j->partners[b] = a;
     }
 }
 
 /* The best ones first, each end once. */
 static bool match_ends(joiner *j)
 {
-    uint8_t *taken = mem_calloc(2 * j->set->stroke_count + 1, 1);
+    const size_t    count = 2 * j->set->stroke_count;
+    const end_rules rules = {(float)REACH_OF_LINKS, MOST, cost_near, offer_bridges, j};
+    end_place      *places = mem_alloc((count + 1) * sizeof *places);
+    uint32_t       *pairs = mem_alloc((count + 1) * sizeof *pairs);
     j->wholes = mem_alloc((j->set->chain_count + 1) * sizeof *j->wholes);
-    bool good = taken && j->wholes && find_candidates(j);
+    bool good = places && pairs && j->wholes;
+    for (uint32_t i = 0; i < count && good; i++)
+        places[i] = place_of(j, i);
     for (uint32_t i = 0; i < j->set->chain_count && good; i++)
         j->wholes[i] = i;
-    if (good && j->candidate_count)
-        qsort(j->candidates, j->candidate_count, sizeof *j->candidates, compare_candidates);
-    for (size_t i = 0; i < j->candidate_count && good; i++)
-        link_ends(j, taken, j->candidates[i].ends);
-    mem_free(taken);
+    good = good && ends_pair(pairs, places, count, &rules, &j->set->ends_compared);
+    for (uint32_t i = 0; i < count && good; i++)
+        if (pairs[i] != END_OF_NONE && pairs[i] > i)
+            link_ends(j, i, pairs[i]);
+    mem_free(places);
+    mem_free(pairs);
     return good;
 }
 
@@ -662,9 +607,6 @@ lmn_status strokes_join(stroke_set *set, const stroke_view *v, const stroke_opti
                     .orthographic = v->camera.orthographic};
     lmn_status status = join_all(&j, v) ? join_overlaps(&j, v, error) : error_memory(error);
     mem_free(j.ends);
-    mem_free(j.kept);
-    mem_free(j.starts);
-    mem_free(j.candidates);
     mem_free(j.partners);
     mem_free(j.first_marks);
     mem_free(j.wholes);

@@ -91,6 +91,7 @@ typedef struct stroke_set {
     bool           perspective; /* between two points it is 1 / depth that is linear on the page, not depth */
     outline_search search;      /* over all meshes that were refined */
     uint64_t       pairs;       /* of lines and triangles that were compared: what the work was */
+    uint64_t       ends_compared; /* pairs of ends of lines, likewise */
 } stroke_set;
 void stroke_set_release(stroke_set *s);
 

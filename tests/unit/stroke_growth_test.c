@@ -15,7 +15,8 @@ typedef void (*maker)(lmn_scene *s, uint32_t count);
 
 typedef struct outcome {
     double   seconds, visible, hidden; /* lengths, of all lines */
-    uint64_t pairs;
+    uint64_t pairs, ends;     /* that were compared */
+    size_t   strokes;
 } outcome;
 
 static double now(void)
@@ -41,6 +42,8 @@ static void find(const pose *p, const stroke_camera *c, outcome *out)
     out->seconds = fmin(out->seconds, now() - begin);
     out->visible = out->hidden = 0;
     out->pairs = set.pairs;
+    out->ends = set.ends_compared;
+    out->strokes = set.stroke_count;
     for (size_t i = 0; i < set.stroke_count; i++)
         for (uint32_t k = 1; k < set.strokes[i].count; k++) {
             const stroke_point *q = &set.points[set.strokes[i].first + k];
@@ -103,6 +106,17 @@ static void stars_grow_as_their_spokes(void **state)
         many.hidden > 1e-3 * wanted)
         fail_msg("%g pairs, then %g; %g px are seen and %g hidden, not %g", (double)few.pairs, (double)many.pairs,
                  many.visible, many.hidden, wanted);
+}
+
+/* All spokes have two ends in one place: each is held against those that lead straight on, and not against all. */
+static void ends_in_one_place_are_not_all_compared(void **state)
+{
+    (void)state;
+    outcome few = run(make_star, 100), many = run(make_star, 1600);
+    printf("%zu %g %zu %g\n", few.strokes, (double)few.ends, many.strokes, (double)many.ends);
+    if (!(many.ends > many.strokes) || many.ends > 24 * few.ends || many.ends > 64 * many.strokes)
+        fail_msg("%zu strokes: %g pairs of ends are compared; %zu: %g", few.strokes, (double)few.ends, many.strokes,
+                 (double)many.ends);
 }
 
 /* Small triangles, one behind the other, that are one pixel large, all of them, and one that is not. */
@@ -189,6 +203,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stars_grow_as_their_spokes),
+        cmocka_unit_test(ends_in_one_place_are_not_all_compared),
         cmocka_unit_test(specks_grow_as_they_are_full),
         cmocka_unit_test(surfaces_in_front_do_not_fill_the_grid),
     };
