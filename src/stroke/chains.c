@@ -628,6 +628,7 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
 {
     memset(out, 0, sizeof *out);
     out->pairs = seen->pairs;
+    out->entries = seen->entries;
     out->search = lines->search;
     chainer c = {.out = out,
                  .v = v,

@@ -92,7 +92,8 @@ static void make_nodes(hierarchy *h, const box3 *boxes, curve_key *keys, curve_k
     while (depth > 0) {
         run r = stack[--depth];
         if (r.end - r.begin <= LEAF || depth + 2 > DEPTH_MAX) {
-            h->nodes[r.node] = (hierarchy_node){box3_empty(), r.begin, r.end - r.begin, {KIN_MIXED, KIN_MIXED}, 0};
+            h->nodes[r.node] =
+                (hierarchy_node){box3_empty(), r.begin, r.end - r.begin, {KIN_MIXED, KIN_MIXED, KIN_MIXED}, 0};
             continue;
         }
         if (r.end - r.begin > CROWD && keys[r.begin].position == keys[r.end - 1].position) {
@@ -101,7 +102,7 @@ static void make_nodes(hierarchy *h, const box3 *boxes, curve_key *keys, curve_k
         }
         uint32_t split = split_of(keys, r.begin, r.end), left = h->node_count;
         h->node_count += 2;
-        h->nodes[r.node] = (hierarchy_node){box3_empty(), left, 0, {KIN_MIXED, KIN_MIXED}, 0};
+        h->nodes[r.node] = (hierarchy_node){box3_empty(), left, 0, {KIN_MIXED, KIN_MIXED, KIN_MIXED}, 0};
         stack[depth++] = (run){left + 1, split, r.end};
         stack[depth++] = (run){left, r.begin, split};
     }
@@ -115,14 +116,14 @@ static void make_boxes(hierarchy *h, const box3 *boxes, hierarchy_kin kin)
             const hierarchy_node *left = &h->nodes[n->first], *right = left + 1;
             n->box = box3_union(left->box, right->box);
             n->size = box3_diagonal(n->box);
-            for (int way = 0; way < 2; way++)
+            for (int way = 0; way < KIN_WAYS; way++)
                 n->kin[way] = left->kin[way] == right->kin[way] ? left->kin[way] : KIN_MIXED;
             continue;
         }
         for (uint32_t k = 0; k < n->count; k++) {
             uint32_t member = h->members[n->first + k];
             n->box = box3_union(n->box, boxes[member]);
-            for (int way = 0; way < 2; way++) {
+            for (int way = 0; way < KIN_WAYS; way++) {
                 uint32_t own = kin.of[way] ? kin.of[way][member] : KIN_MIXED;
                 n->kin[way] = k == 0 || own == n->kin[way] ? own : KIN_MIXED;
             }
@@ -183,7 +184,7 @@ typedef struct pair_search {
 
 static bool are_kin(const pair_search *s, uint32_t p, uint32_t q)
 {
-    for (int way = 0; way < 2; way++)
+    for (int way = 0; way < KIN_WAYS; way++)
         if (s->kin.of[way] && s->kin.of[way][p] == s->kin.of[way][q] && s->kin.of[way][p] != KIN_MIXED)
             return true;
     return false;
@@ -192,7 +193,10 @@ static bool are_kin(const pair_search *s, uint32_t p, uint32_t q)
 /* All members of one node and of another one, or the same. */
 static bool are_nodes_kin(const hierarchy_node *a, const hierarchy_node *b)
 {
-    return (a->kin[0] == b->kin[0] && a->kin[0] != KIN_MIXED) || (a->kin[1] == b->kin[1] && a->kin[1] != KIN_MIXED);
+    for (int way = 0; way < KIN_WAYS; way++)
+        if (a->kin[way] == b->kin[way] && a->kin[way] != KIN_MIXED)
+            return true;
+    return false;
 }
 
 static bool pairs_of_leaves(const pair_search *s, const hierarchy_node *a, const hierarchy_node *b)

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "stroke/hubs.h"
 #include "stroke/solid.h"
 
 enum { MARK_SIDE = 64, TICKS = 65536 };
@@ -48,19 +49,22 @@ typedef struct crossing_search {
     near_face          *faces;
     box3               *boxes;
     uint32_t           *pieces, *planes; /* per near face, of all items */
-    size_t              face_count, face_capacity, box_capacity, kin_capacity, plane_capacity;
-    size_t              overlaps; /* pairs of pieces whose boxes do */
-    bool                crowded;  /* these are so many that all faces are looked at instead */
-    double              same;     /* of the two faces that are compared */
-    float             **turns;    /* per mesh: of each face, by how much they turn; NULL: not needed yet */
-    face_touch         *touches;
-    size_t              touch_count, touch_capacity;
-    solid_trimmer     **trimmers; /* per item that is a solid; NULL: not needed yet */
-    crossing_list      *out;
-    lmn_progress_fn     progress;
-    void               *user;
-    uint32_t            ticks;
-    bool                failed, cancelled;
+    uint32_t (*corners)[3];              /* likewise: vertices */
+    uint32_t       *hubs;
+    bool            unnumbered; /* there are more vertices than numbers: no hubs are looked for */
+    size_t          face_count, face_capacity, box_capacity, kin_capacity, plane_capacity, corner_capacity;
+    size_t          overlaps; /* pairs of pieces whose boxes do */
+    bool            crowded;  /* these are so many that all faces are looked at instead */
+    double          same;     /* of the two faces that are compared */
+    float         **turns;    /* per mesh: of each face, by how much they turn; NULL: not needed yet */
+    face_touch     *touches;
+    size_t          touch_count, touch_capacity;
+    solid_trimmer **trimmers; /* per item that is a solid; NULL: not needed yet */
+    crossing_list  *out;
+    lmn_progress_fn progress;
+    void           *user;
+    uint32_t        ticks;
+    bool            failed, cancelled;
 } crossing_search;
 
 /* fminf and fmaxf are calls. */
@@ -211,13 +215,18 @@ static box3 face_box(const edge_mesh *m, const stroke_item *item, bool still, ui
                    larger(p[0].z, larger(p[1].z, p[2].z))}};
 }
 
-static bool put_near_face(crossing_search *s, near_face n, box3 box, uint32_t piece, uint32_t plane)
+static bool put_near_face(crossing_search *s, near_face n, box3 box, uint32_t piece, uint32_t plane,
+                          uint32_t first_vertex)
 {
+    const uint32_t *corners = s->scene->meshes[s->scene->items[n.item].mesh].faces[n.face];
     if (!mem_grow((void **)&s->faces, &s->face_capacity, s->face_count + 1, sizeof *s->faces) ||
         !mem_grow((void **)&s->boxes, &s->box_capacity, s->face_count + 1, sizeof *s->boxes) ||
         !mem_grow((void **)&s->pieces, &s->kin_capacity, s->face_count + 1, sizeof *s->pieces) ||
-        !mem_grow((void **)&s->planes, &s->plane_capacity, s->face_count + 1, sizeof *s->planes))
+        !mem_grow((void **)&s->planes, &s->plane_capacity, s->face_count + 1, sizeof *s->planes) ||
+        !mem_grow((void **)&s->corners, &s->corner_capacity, s->face_count + 1, sizeof *s->corners))
         return false;
+    for (int k = 0; k < 3; k++)
+        s->corners[s->face_count][k] = first_vertex + corners[k];
     s->faces[s->face_count] = n;
     s->boxes[s->face_count] = box;
     s->pieces[s->face_count] = piece;
@@ -227,11 +236,12 @@ static bool put_near_face(crossing_search *s, near_face n, box3 box, uint32_t pi
 
 static lmn_status gather_faces(crossing_search *s, lmn_error *error)
 {
-    uint32_t first_plane = 0;
+    uint32_t first_plane = 0, first_vertex = 0;
     for (uint32_t i = 0; i < s->scene->item_count; i++) {
         const stroke_item *item = &s->scene->items[i];
         const edge_mesh   *m = &s->scene->meshes[item->mesh];
         bool               still = s->still[i];
+        s->unnumbered = s->unnumbered || m->vertex_count > UINT32_MAX - first_vertex;
         for (uint32_t f = 0; f < m->face_count; f++) {
             uint32_t piece = s->first_piece[i] + m->pieces[f];
             if (!s->crowded && !s->piece_meets[piece])
@@ -240,10 +250,11 @@ static lmn_status gather_faces(crossing_search *s, lmn_error *error)
             if (!s->crowded && !is_marked(s, &box))
                 continue;
             if (!put_near_face(s, (near_face){i, f}, box, piece,
-                               m->planes && m->planes[f] ? first_plane + m->planes[f] : KIN_MIXED))
+                               m->planes && m->planes[f] ? first_plane + m->planes[f] : KIN_MIXED, first_vertex))
                 return error_memory(error);
         }
         first_plane += m->plane_count;
+        first_vertex += m->vertex_count;
     }
     return LMN_OK;
 }
@@ -504,6 +515,7 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
     const near_face *n = &s->faces[first], *m = &s->faces[second];
     if (!asks_for(s, s->pieces[first], s->pieces[second]))
         return true;
+    s->out->compared++;
     s->same = SAME_POSITION * fmax(s->scene->items[n->item].reach, s->scene->items[m->item].reach);
     if (n->item == m->item && s->still[n->item]) {
         const edge_mesh *own = &s->scene->meshes[s->scene->items[n->item].mesh];
@@ -553,9 +565,36 @@ static bool cross_along_edges(crossing_search *s)
 
 /* --- all ------------------------------------------------------------------------------------------------ */
 
+static double3 corner_position(void *user, uint32_t face, int corner)
+{
+    const crossing_search *s = user;
+    const near_face       *n = &s->faces[face];
+    const stroke_item     *item = &s->scene->items[n->item];
+    const edge_mesh       *m = &s->scene->meshes[item->mesh];
+    return item_position(item, m->positions[m->faces[n->face][corner]]);
+}
+
+/* Those that share a hub by directions, all others by boxes. */
+static lmn_status compare_faces(crossing_search *s, lmn_error *error)
+{
+    const hub_faces faces = {(const uint32_t(*)[3])s->corners, s->pieces,      s->planes, s->face_count,
+                             SAME_POSITION * s->scene->reach,  corner_position};
+    hierarchy       tree;
+    s->hubs = s->unnumbered ? NULL : mem_alloc((s->face_count + 1) * sizeof *s->hubs);
+    if (!s->unnumbered && (!s->hubs || !hubs_find(s->hubs, &faces)))
+        return error_memory(error);
+    const hierarchy_kin kin = {{s->pieces, s->planes, s->hubs}};
+    lmn_status          status = hierarchy_build(&tree, s->boxes, kin, (uint32_t)s->face_count, error);
+    if (status != LMN_OK)
+        return status;
+    bool going = hierarchy_pairs(&tree, s->boxes, kin, cross_faces, s);
+    hierarchy_release(&tree);
+    return going && s->hubs ? hubs_pairs(s->hubs, &faces, cross_faces, s, &going, error) : LMN_OK;
+}
+
 static lmn_status search(crossing_search *s, lmn_error *error)
 {
-    static const hierarchy_kin none = {{NULL, NULL}};
+    static const hierarchy_kin none = {{NULL}};
     hierarchy                  tree;
     lmn_status                 status = number_pieces(s, error);
     if (status == LMN_OK)
@@ -569,13 +608,10 @@ static lmn_status search(crossing_search *s, lmn_error *error)
     if (!s->crowded && box3_is_empty(s->region))
         return LMN_OK;
     status = gather_faces(s, error);
-    const hierarchy_kin kin = {{s->pieces, s->planes}};
     if (status == LMN_OK)
-        status = hierarchy_build(&tree, s->boxes, kin, (uint32_t)s->face_count, error);
+        status = compare_faces(s, error);
     if (status != LMN_OK)
         return status;
-    hierarchy_pairs(&tree, s->boxes, kin, cross_faces, s);
-    hierarchy_release(&tree);
     s->failed = s->failed || (!s->cancelled && !cross_along_edges(s));
     if (s->cancelled)
         return error_set(error, LMN_CANCELLED, "cancelled while intersections were found");
@@ -616,6 +652,8 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, const b
     mem_free(s.boxes);
     mem_free(s.pieces);
     mem_free(s.planes);
+    mem_free(s.corners);
+    mem_free(s.hubs);
     mem_free(s.touches);
     for (size_t i = 0; i < scene->mesh_count && s.turns; i++)
         mem_free(s.turns[i]);

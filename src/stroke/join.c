@@ -163,7 +163,8 @@ static float cost_of(const joiner *j, uint32_t a, uint32_t b)
     return cost < MOST ? cost : -1;
 }
 
-/* The same for ends of cells that touch each other; of two chains, for those that are near enough whatever is rounded. */
+/* The same for ends of cells that touch each other; of two chains, for those that are near enough whatever is rounded.
+ */
 static float cost_near(void *user, uint32_t a, uint32_t b)
 {
     const joiner     *j = user;

@@ -203,8 +203,8 @@ void end_search_offer(end_search *s, uint32_t other)
     if (other == s->end || p->gone[other])
         return;
     p->compared++;
-    float cost = s->end < other ? p->rules->cost(p->rules->user, s->end, other)
-                                : p->rules->cost(p->rules->user, other, s->end);
+    float cost =
+        s->end < other ? p->rules->cost(p->rules->user, s->end, other) : p->rules->cost(p->rules->user, other, s->end);
     if (cost >= 0 && comes_before(s, cost, other)) {
         s->cost = cost;
         s->other = other;

@@ -88,9 +88,10 @@ typedef struct stroke_set {
     stroke_mark   *marks; /* in the order of the chains */
     stroke_fine   *fine;  /* with stroke_options.fine */
     size_t         stroke_count, point_count, chain_count, mark_count, fine_count;
-    bool           perspective; /* between two points it is 1 / depth that is linear on the page, not depth */
-    outline_search search;      /* over all meshes that were refined */
-    uint64_t       pairs;       /* of lines and triangles that were compared: what the work was */
+    bool           perspective;   /* between two points it is 1 / depth that is linear on the page, not depth */
+    outline_search search;        /* over all meshes that were refined */
+    uint64_t       pairs;         /* of lines and triangles that were compared: what the work was */
+    uint64_t       entries;       /* of cells, likewise, whether they meet the line or not */
     uint64_t       ends_compared; /* pairs of ends of lines, likewise */
 } stroke_set;
 void stroke_set_release(stroke_set *s);

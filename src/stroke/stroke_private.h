@@ -187,25 +187,26 @@ void grid_walk(const window_grid *g, window_point a, window_point b, grid_visit 
 typedef struct visibility {
     visibility_span *spans;
     uint32_t        *starts;
-    uint64_t         pairs;
+    uint64_t         pairs, entries; /* that were compared; of cells that were looked at */
 } visibility;
 lmn_status visibility_find(visibility *out, const stroke_view *v, const window_segment *segments, size_t count,
                            lmn_progress_fn progress, void *user, lmn_error *error);
 void       visibility_release(visibility *out);
 
 /* --- hierarchy.c: boxes around boxes --- */
+enum { KIN_WAYS = 3 };
 typedef struct hierarchy_node {
     box3     box;
-    uint32_t first, count; /* leaf: members; else count 0, and `first` is the left child, the right one behind it */
-    uint32_t kin[2];       /* what all its members are of; KIN_MIXED: of several */
-    double   size;         /* diagonal of the box */
+    uint32_t first, count;  /* leaf: members; else count 0, and `first` is the left child, the right one behind it */
+    uint32_t kin[KIN_WAYS]; /* what all its members are of; KIN_MIXED: of several */
+    double   size;          /* diagonal of the box */
 } hierarchy_node;
 #define KIN_MIXED UINT32_MAX
 
-/* What each member is of, in two ways: those that are of one in either are no pair. NULL: all differ; KIN_MIXED: it is
- * of none. */
+/* What each member is of, in some ways: those that are of one in any are no pair. NULL: all differ; KIN_MIXED: it is of
+ * none. */
 typedef struct hierarchy_kin {
-    const uint32_t *of[2];
+    const uint32_t *of[KIN_WAYS];
 } hierarchy_kin;
 
 typedef struct hierarchy {
@@ -235,10 +236,11 @@ struct crossing_list {
     size_t         count, capacity;
     uint32_t (*beside)[2]; /* pieces, of all in the scene, that nearly coincide, so that one is in front here and the
                               other one there; each pair both ways, ascending */
-    size_t  beside_count, beside_capacity;
-    size_t *first, *order; /* per item, and one more: its first one in `order`, which has their indices */
-    bool   *parts;         /* that were asked for, a flag each; NULL: all */
-    size_t  part_count;
+    size_t   beside_count, beside_capacity;
+    size_t  *first, *order; /* per item, and one more: its first one in `order`, which has their indices */
+    bool    *parts;         /* that were asked for, a flag each; NULL: all */
+    size_t   part_count;
+    uint64_t compared; /* pairs of faces that were: what the work was */
 };
 void crossings_release(crossing_list *c);
 /* So far pieces that nearly coincide may lie in front of each other: fraction of the scene's diagonal. */

@@ -29,7 +29,7 @@ enum { ENTRIES_A_SEGMENT = 48 };
 typedef struct span_block {
     visibility_span *spans;
     size_t           count, capacity;
-    uint64_t         pairs;
+    uint64_t         pairs, entries;
 } span_block;
 
 typedef struct span_job {
@@ -84,7 +84,7 @@ typedef struct worker {
     position_step        *steps;
     size_t                step_capacity;
     solid_covers          covers; /* of faces of solids */
-    uint64_t              pairs;
+    uint64_t              pairs, entries;
     double                gap;    /* GAP by the segment's length: sides of corners so near are none, window units */
     double                beside; /* by how many units the segment was moved aside; 0: it is where it is */
     bool                  grazed; /* an edge of another body's face runs along it */
@@ -471,6 +471,7 @@ static size_t find_new(worker *w, const uint32_t *entries, uint16_t *offsets, si
 static void visit_run(worker *w, const uint32_t *entries, size_t corner, size_t count, bool alone)
 {
     uint16_t offsets[RUN_MOST];
+    w->entries += count;
     for (size_t begin = 0; begin < count; begin += RUN_MOST) {
         size_t length = count - begin < RUN_MOST ? count - begin : RUN_MOST;
         size_t found = !w->corners ? find_boxes(w, entries + begin, length, offsets)
@@ -737,7 +738,8 @@ static void find_blocks(size_t begin, size_t end, void *user)
             job->lengths[job->order[i]] = (uint32_t)(block->count - before);
         }
         block->pairs = w.pairs;
-        w.pairs = 0;
+        block->entries = w.entries;
+        w.pairs = w.entries = 0;
     }
     if (w.failed)
         atomic_store(&job->failed, true);
@@ -803,6 +805,7 @@ static lmn_status join_blocks(visibility *out, const span_job *job, size_t block
             from += length;
         }
         out->pairs += job->blocks[b].pairs;
+        out->entries += job->blocks[b].entries;
     }
     return LMN_OK;
 }

@@ -15,7 +15,7 @@ typedef void (*maker)(lmn_scene *s, uint32_t count);
 
 typedef struct outcome {
     double   seconds, visible, hidden; /* lengths, of all lines */
-    uint64_t pairs, ends;     /* that were compared */
+    uint64_t pairs, entries, ends;     /* that were compared, or looked at */
     size_t   strokes;
 } outcome;
 
@@ -42,6 +42,7 @@ static void find(const pose *p, const stroke_camera *c, outcome *out)
     out->seconds = fmin(out->seconds, now() - begin);
     out->visible = out->hidden = 0;
     out->pairs = set.pairs;
+    out->entries = set.entries;
     out->ends = set.ends_compared;
     out->strokes = set.stroke_count;
     for (size_t i = 0; i < set.stroke_count; i++)
@@ -100,8 +101,8 @@ static void stars_grow_as_their_spokes(void **state)
     (void)state;
     outcome few = run(make_star, 1500), many = run(make_star, 6000);
     double  wanted = 400 * 6000 * (2 + 2 * sin(stroke_pi / 12000));
-    if (!(many.seconds < 8 * few.seconds))
-        fail_msg("1500 spokes take %g s, 6000 %g s", few.seconds, many.seconds);
+    if (!(many.entries < 8 * few.entries))
+        fail_msg("of 1500 spokes %g entries are looked at, of 6000 %g", (double)few.entries, (double)many.entries);
     if (!(many.pairs < 8 * few.pairs + 6000) || !(fabs(many.visible - wanted) < 1e-3 * wanted) ||
         many.hidden > 1e-3 * wanted)
         fail_msg("%g pairs, then %g; %g px are seen and %g hidden, not %g", (double)few.pairs, (double)many.pairs,
@@ -113,10 +114,86 @@ static void ends_in_one_place_are_not_all_compared(void **state)
 {
     (void)state;
     outcome few = run(make_star, 100), many = run(make_star, 1600);
-    printf("%zu %g %zu %g\n", few.strokes, (double)few.ends, many.strokes, (double)many.ends);
     if (!(many.ends > many.strokes) || many.ends > 24 * few.ends || many.ends > 64 * many.strokes)
         fail_msg("%zu strokes: %g pairs of ends are compared; %zu: %g", few.strokes, (double)few.ends, many.strokes,
                  (double)many.ends);
+}
+
+/* Narrow triangles from one place in all directions, as wide as is asked for. */
+static void put_spikes(lmn_scene *s, uint32_t count, double width)
+{
+    vec3     *positions = mem_alloc((2 * (size_t)count + 1) * sizeof *positions);
+    uint32_t *corners = mem_alloc(3 * (size_t)count * sizeof *corners);
+    positions[0] = (vec3){0, 0, 0};
+    for (uint32_t i = 0; i < count; i++) {
+        double turn = stroke_pi * stroke_random(5 * i), up = stroke_random(5 * i + 1), wide = sqrt(1 - up * up);
+        double tip[3] = {wide * cos(turn), wide * sin(turn), up}, beside[3];
+        for (uint32_t k = 0; k < 3; k++)
+            beside[k] = tip[k] + width * stroke_random(5 * i + 2 + k);
+        positions[1 + 2 * i] = (vec3){(float)tip[0], (float)tip[1], (float)tip[2]};
+        positions[2 + 2 * i] = (vec3){(float)beside[0], (float)beside[1], (float)beside[2]};
+        memcpy(corners + 3 * i, (const uint32_t[]){0, 1 + 2 * i, 2 + 2 * i}, 3 * sizeof *corners);
+    }
+    add_part(s, positions, 2 * count + 1, corners, 3 * count);
+    mem_free(positions);
+    mem_free(corners);
+}
+
+/* Where spikes cross: how many pairs of the first `counted` ones, or of all, with a sum that tells which, and how many
+ * pairs were compared. */
+static void cross_spikes(uint32_t count, double width, uint32_t counted, size_t *found, double *sum, uint64_t *compared)
+{
+    lmn_error     error = {0};
+    pose          at_rest;
+    stroke_scene  scene;
+    crossing_list list;
+    lmn_scene    *s = stroke_scene_begin();
+    put_spikes(s, count, width);
+    assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
+    assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, &error), LMN_OK);
+    assert_int_equal(stroke_scene_create(&scene, &at_rest, NULL, 0.5, NULL, NULL, &error), LMN_OK);
+    assert_int_equal(crossings_find(&list, &scene, NULL, NULL, NULL, &error), LMN_OK);
+    *found = 0;
+    *sum = 0;
+    *compared = list.compared;
+    for (size_t i = 0; i < list.count; i++) {
+        const face_crossing *c = &list.crossings[i];
+        if (c->faces[0] >= counted || c->faces[1] >= counted)
+            continue;
+        double3 way = double3_minus(c->ends[1], c->ends[0]);
+        ++*found;
+        *sum += sqrt(double3_dot(way, way)) * (1 + c->faces[0] + c->faces[1]);
+    }
+    crossings_release(&list);
+    stroke_scene_release(&scene);
+    pose_release(&at_rest);
+    scene_free(s);
+}
+
+/* Boxes of all of them overlap where they meet. */
+static void spikes_are_compared_by_directions(void **state)
+{
+    (void)state;
+    size_t   found[2];
+    double   sums[2];
+    uint64_t few, many;
+    cross_spikes(500, 4e-3, 500, &found[0], &sums[0], &few);
+    cross_spikes(2000, 4e-3, 2000, &found[1], &sums[1], &many);
+    if (many > 32 * 2000)
+        fail_msg("of 500 spikes %g pairs are compared, of 2000 %g", (double)few, (double)many);
+}
+
+/* Sixty are too few for a place of their own, 240 are not; what the first sixty have with each other stays. */
+static void spikes_cross_as_they_did(void **state)
+{
+    (void)state;
+    size_t   alone, among;
+    double   alone_sum, among_sum;
+    uint64_t compared;
+    cross_spikes(60, 2, 60, &alone, &alone_sum, &compared);
+    cross_spikes(240, 2, 60, &among, &among_sum, &compared);
+    if (alone < 20 || among != alone || !(fabs(among_sum - alone_sum) < 1e-6 * alone_sum))
+        fail_msg("60 spikes cross in %zu lines (%g), among others in %zu (%g)", alone, alone_sum, among, among_sum);
 }
 
 /* Small triangles, one behind the other, that are one pixel large, all of them, and one that is not. */
@@ -202,10 +279,9 @@ static void surfaces_in_front_do_not_fill_the_grid(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stars_grow_as_their_spokes),
-        cmocka_unit_test(ends_in_one_place_are_not_all_compared),
-        cmocka_unit_test(specks_grow_as_they_are_full),
-        cmocka_unit_test(surfaces_in_front_do_not_fill_the_grid),
+        cmocka_unit_test(stars_grow_as_their_spokes),        cmocka_unit_test(ends_in_one_place_are_not_all_compared),
+        cmocka_unit_test(spikes_are_compared_by_directions), cmocka_unit_test(spikes_cross_as_they_did),
+        cmocka_unit_test(specks_grow_as_they_are_full),      cmocka_unit_test(surfaces_in_front_do_not_fill_the_grid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
