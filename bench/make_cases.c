@@ -167,6 +167,24 @@ static void spikes(writer *w, long count)
     }
 }
 
+/* Flat stars in four planes through one place. */
+static void fans(writer *w, long count)
+{
+    const double tilts[4][2] = {{0, 0}, {1.1, 0}, {-1.1, 0.7}, {0.5, 1.3}};
+    for (long i = 0; i < count; i++) {
+        double turn[2] = {TURN * (double)(i / 4) / (double)(count / 4), 0};
+        place  p[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+        turn[1] = turn[0] + 0.5 * TURN / (double)(count / 4);
+        for (int k = 0; k < 2; k++) {
+            double x = cos(turn[k]), y = sin(turn[k]) * cos(tilts[i % 4][0]), z = sin(turn[k]) * sin(tilts[i % 4][0]);
+            p[1 + k].x = x * cos(tilts[i % 4][1]) - z * sin(tilts[i % 4][1]);
+            p[1 + k].y = y;
+            p[1 + k].z = x * sin(tilts[i % 4][1]) + z * cos(tilts[i % 4][1]);
+        }
+        put(w, p[0], p[1], p[2]);
+    }
+}
+
 /* Boxes on a grid, in groups of their own: parts. */
 static void parts(FILE *file, long count)
 {
@@ -224,9 +242,9 @@ int main(int argc, char **argv)
         const char *name;
         void (*make)(writer *w, long count);
     } cases[] = {{"star", star},   {"soup", soup},       {"tori", tori},    {"junctions", junctions},
-                 {"speck", speck}, {"spheres", spheres}, {"spikes", spikes}};
+                 {"speck", speck}, {"spheres", spheres}, {"spikes", spikes}, {"fans", fans}};
     if (argc != 4)
-        return fprintf(stderr, "usage: make_cases star|soup|tori|junctions|speck|spheres|spikes|parts COUNT OUT, or "
+        return fprintf(stderr, "usage: make_cases star|soup|tori|junctions|speck|spheres|spikes|fans|parts COUNT OUT, or "
                                "split IN.stl OUT.stl\n"),
                1;
     writer w = {fopen(argv[3], "wb"), 0};
