@@ -241,11 +241,12 @@ int main(int argc, char **argv)
     static const struct {
         const char *name;
         void (*make)(writer *w, long count);
-    } cases[] = {{"star", star},   {"soup", soup},       {"tori", tori},    {"junctions", junctions},
+    } cases[] = {{"star", star},   {"soup", soup},       {"tori", tori},     {"junctions", junctions},
                  {"speck", speck}, {"spheres", spheres}, {"spikes", spikes}, {"fans", fans}};
     if (argc != 4)
-        return fprintf(stderr, "usage: make_cases star|soup|tori|junctions|speck|spheres|spikes|fans|parts COUNT OUT, or "
-                               "split IN.stl OUT.stl\n"),
+        return fprintf(stderr,
+                       "usage: make_cases star|soup|tori|junctions|speck|spheres|spikes|fans|parts COUNT OUT, or "
+                       "split IN.stl OUT.stl\n"),
                1;
     writer w = {fopen(argv[3], "wb"), 0};
     int    good = w.file != NULL;

@@ -154,29 +154,33 @@ static bool make_levels(window_grid *g, const stroke_view *v)
 }
 
 typedef struct plane_entry {
-    uint32_t plane, entry;
+    uint32_t wheel, plane, entry;
 } plane_entry;
 
 static int compare_planes(const void *a, const void *b)
 {
     const plane_entry *p = a, *q = b;
+    if (p->wheel != q->wheel)
+        return p->wheel < q->wheel ? -1 : 1;
     return p->plane != q->plane ? (p->plane < q->plane ? -1 : 1) : (p->entry > q->entry) - (p->entry < q->entry);
 }
 
-/* Sorts the entries of cells that are a crowd by the planes in which they lie. */
-static bool sort_crowds(const stroke_view *v, const uint32_t *starts, size_t cells, uint32_t *entries)
+/* Sorts the entries of cells that are a crowd by their wheels, and by the planes in which they lie. */
+static bool sort_crowds(const window_grid *g, const stroke_view *v, const uint32_t *starts, size_t cells,
+                        uint32_t *entries)
 {
     plane_entry *keys = NULL;
     size_t       capacity = 0;
     bool         good = true;
-    for (size_t c = 0; c < cells && v->planes && good; c++) {
+    for (size_t c = 0; c < cells && (v->planes || g->wheels.of_triangles) && good; c++) {
         size_t count = starts[c + 1] - starts[c];
         if (count <= GRID_CROWD)
             continue;
         good = mem_grow((void **)&keys, &capacity, count, sizeof *keys);
         for (size_t i = 0; i < count && good; i++) {
             uint32_t entry = entries[starts[c] + i];
-            keys[i] = (plane_entry){v->planes[v->triangles[entry].face], entry};
+            keys[i] = (plane_entry){g->wheels.of_triangles ? g->wheels.of_triangles[entry] : 0,
+                                    v->planes ? v->planes[v->triangles[entry].face] : 0, entry};
         }
         if (good)
             qsort(keys, count, sizeof *keys, compare_planes);
@@ -230,7 +234,7 @@ static bool divide_cell(window_grid *g, const stroke_view *v, const grid_level *
     sub.divisible = own <= (size_t)SPLIT_MOST * count && sub.copies <= COPIES_MOST;
     g->sub_entry_count = total;
     g->sub_start_count += cells + 2;
-    if (!sort_crowds(v, sub.starts, cells, g->sub_entries))
+    if (!sort_crowds(g, v, sub.starts, cells, g->sub_entries))
         return false;
     sub.starts = NULL;
     g->subs[g->sub_count++] = sub;
@@ -269,7 +273,7 @@ static bool divide_crowds(window_grid *g, const stroke_view *v)
         size_t      cells = (size_t)l->columns * (size_t)l->rows;
         if (l->starts[cells] == l->starts[0])
             continue;
-        if (!sort_crowds(v, l->starts, cells, g->entries))
+        if (!sort_crowds(g, v, l->starts, cells, g->entries))
             return false;
         l->subs = mem_calloc(cells, sizeof *l->subs);
         if (!l->subs)
@@ -426,7 +430,7 @@ lmn_status grid_build(window_grid *out, const stroke_view *v, lmn_error *error)
 {
     grid_job job = {.g = out, .v = v};
     memset(out, 0, sizeof *out);
-    bool good = make_levels(out, v) && open_runs(&job) && enter_all(&job);
+    bool good = wheels_make(&out->wheels, v) && make_levels(out, v) && open_runs(&job) && enter_all(&job);
     for (uint32_t r = 0; r < job.run_count; r++)
         for (int k = 0; k < GRID_LEVELS; k++)
             mem_free(job.slots[r][k]);
@@ -439,6 +443,7 @@ void grid_release(window_grid *g)
         mem_free(g->levels[k].starts);
         mem_free(g->levels[k].subs);
     }
+    wheels_release(&g->wheels);
     mem_free(g->subs);
     mem_free(g->sub_starts);
     mem_free(g->sub_links);

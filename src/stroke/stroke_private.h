@@ -8,6 +8,7 @@
 #define LIMNER_STROKE_STROKE_PRIVATE_H
 
 #include "stroke/stroke.h"
+#include "stroke/wheels.h"
 
 #define NO_VERTEX UINT32_MAX
 /* Window coordinates stay within this. */
@@ -84,6 +85,7 @@ typedef struct window_grid {
     size_t      entry_count;
     size_t      sub_count, sub_capacity, sub_start_count, sub_start_capacity, sub_link_capacity, sub_entry_count,
         sub_entry_capacity;
+    window_wheels wheels;
 } window_grid;
 
 typedef struct view_item {

@@ -75,6 +75,7 @@ typedef struct worker {
     line_test             line;
     bool                  wide;      /* the processor has wide registers */
     uint32_t              planes[2]; /* that the segment lies in, ascending; 0: not known */
+    uint32_t              wheels[2]; /* that it begins and ends in the middle of; 0: none */
     uint32_t             *stamps;    /* per triangle: the last segment that it was compared with */
     uint32_t              stamp;
     position_slot        *table; /* of places where covers begin or end, found by their bits */
@@ -468,6 +469,23 @@ static size_t find_new(worker *w, const uint32_t *entries, uint16_t *offsets, si
     return found;
 }
 
+static bool is_of_wheel(const worker *w, uint32_t wheel)
+{
+    return wheel && (wheel == w->wheels[0] || wheel == w->wheels[1]);
+}
+
+/* Of entries those that are not of a wheel which is walked by itself. */
+static size_t leave_wheels(const worker *w, const uint32_t *entries, uint16_t *offsets, size_t count)
+{
+    const uint32_t *wheels = w->v->grid.wheels.of_triangles;
+    size_t          found = 0;
+    for (size_t i = 0; i < count; i++) {
+        offsets[found] = offsets[i];
+        found += !is_of_wheel(w, wheels[entries[offsets[i]]]);
+    }
+    return found;
+}
+
 static void visit_run(worker *w, const uint32_t *entries, size_t corner, size_t count, bool alone)
 {
     uint16_t offsets[RUN_MOST];
@@ -477,6 +495,8 @@ static void visit_run(worker *w, const uint32_t *entries, size_t corner, size_t 
         size_t found = !w->corners ? find_boxes(w, entries + begin, length, offsets)
                        : w->wide   ? find_meeting_wide(w, corner + begin, length, offsets)
                                    : find_meeting(w, corner + begin, length, offsets);
+        if (w->wheels[0] || w->wheels[1])
+            found = leave_wheels(w, entries + begin, offsets, found);
         if (!alone)
             found = find_new(w, entries + begin, offsets, found);
         for (size_t i = 0; i < found; i++)
@@ -499,10 +519,9 @@ static size_t first_in_plane(const stroke_view *v, const uint32_t *entries, size
 }
 
 /* Of a crowd, what lies in the segment's own planes is passed by. */
-static void visit(void *user, const uint32_t *entries, size_t corner, size_t count, bool alone)
+static void visit_planes(worker *w, const uint32_t *entries, size_t corner, size_t count, bool alone)
 {
-    worker *w = user;
-    size_t  begin = 0;
+    size_t begin = 0;
     for (int k = 0; k < 2 && count > GRID_CROWD && w->v->planes; k++) {
         if (!w->planes[k])
             continue;
@@ -512,6 +531,70 @@ static void visit(void *user, const uint32_t *entries, size_t corner, size_t cou
         begin = first_in_plane(w->v, entries, count, w->planes[k] + 1);
     }
     visit_run(w, entries + begin, corner + begin, count - begin, alone);
+}
+
+/* The first entry of a crowd behind those of a wheel. */
+static size_t end_of_wheel(const uint32_t *wheels, const uint32_t *entries, size_t count, uint32_t wheel)
+{
+    size_t low = 0, high = count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (wheels[entries[middle]] <= wheel)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* A crowd's wheels one after the other, but those which are walked by themselves. */
+static void visit(void *user, const uint32_t *entries, size_t corner, size_t count, bool alone)
+{
+    worker         *w = user;
+    const uint32_t *wheels = w->v->grid.wheels.of_triangles;
+    if (!wheels || count <= GRID_CROWD) {
+        visit_planes(w, entries, corner, count, alone);
+        return;
+    }
+    for (size_t begin = 0, end; begin < count; begin = end) {
+        const uint32_t wheel = wheels[entries[begin]];
+        end = begin + end_of_wheel(wheels, entries + begin, count - begin, wheel);
+        if (!is_of_wheel(w, wheel))
+            visit_planes(w, entries + begin, corner + begin, end - begin, alone);
+    }
+}
+
+static void visit_spoke(void *user, uint32_t triangle)
+{
+    worker *w = user;
+    w->entries++;
+    if (w->v->boxes[triangle].near_z <= w->line.far_z)
+        compare(w, triangle, 0);
+}
+
+/* The wheel in whose middle an end is. */
+static uint32_t wheel_at(const worker *w, int end)
+{
+    const window_segment *s = w->segment;
+    const window_wheels  *wheels = &w->v->grid.wheels;
+    const uint32_t        point = s->ends[end];
+    if (!wheels->of_points || point >= w->v->point_count)
+        return 0;
+    const window_point p = w->v->points[point], at = end ? s->b : s->a;
+    return p.x == at.x && p.y == at.y ? wheels->of_points[point] : 0;
+}
+
+/* Wheels that the segment begins or ends in the middle of. */
+static void walk_wheels(worker *w)
+{
+    const window_segment *s = w->segment;
+    const double          x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
+    const grid_corners   *corners = w->corners;
+    w->corners = NULL; /* those of triangles that are found without the grid lie elsewhere */
+    for (int k = 0; k < 2; k++)
+        if (w->wheels[k] && (k == 0 || w->wheels[1] != w->wheels[0]))
+            wheel_walk(&w->v->grid.wheels, w->wheels[k], k ? -x : x, k ? -y : y, visit_spoke, w);
+    w->corners = corners;
 }
 
 /* By insertion with gaps: few are left where the segment is short. */
@@ -630,7 +713,11 @@ static void find_spans(worker *w, span_block *block, const window_segment *s)
     w->line = test_of(s, w->v->units);
     w->covers.count = 0;
     take_faces(w);
+    const bool is_point = s->a.x == s->b.x && s->a.y == s->b.y;
+    for (int k = 0; k < 2; k++)
+        w->wheels[k] = is_point ? 0 : wheel_at(w, k);
     grid_walk(&w->v->grid, s->a, s->b, visit, w);
+    walk_wheels(w);
     if (!w->failed && w->covers.count)
         w->failed = !solid_covers_count(&w->covers, w->v, put_solid_step, w);
     if (!w->failed)

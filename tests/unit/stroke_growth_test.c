@@ -120,16 +120,17 @@ static void ends_in_one_place_are_not_all_compared(void **state)
 }
 
 /* Narrow triangles from one place in all directions, as wide as is asked for. */
-static void put_spikes(lmn_scene *s, uint32_t count, double width)
+static void put_spikes(lmn_scene *s, uint32_t first, uint32_t count, double width)
 {
     vec3     *positions = mem_alloc((2 * (size_t)count + 1) * sizeof *positions);
     uint32_t *corners = mem_alloc(3 * (size_t)count * sizeof *corners);
     positions[0] = (vec3){0, 0, 0};
     for (uint32_t i = 0; i < count; i++) {
-        double turn = stroke_pi * stroke_random(5 * i), up = stroke_random(5 * i + 1), wide = sqrt(1 - up * up);
-        double tip[3] = {wide * cos(turn), wide * sin(turn), up}, beside[3];
+        uint32_t seed = 5 * (first + i);
+        double   turn = stroke_pi * stroke_random(seed), up = stroke_random(seed + 1), wide = sqrt(1 - up * up);
+        double   tip[3] = {wide * cos(turn), wide * sin(turn), up}, beside[3];
         for (uint32_t k = 0; k < 3; k++)
-            beside[k] = tip[k] + width * stroke_random(5 * i + 2 + k);
+            beside[k] = tip[k] + width * stroke_random(seed + 2 + k);
         positions[1 + 2 * i] = (vec3){(float)tip[0], (float)tip[1], (float)tip[2]};
         positions[2 + 2 * i] = (vec3){(float)beside[0], (float)beside[1], (float)beside[2]};
         memcpy(corners + 3 * i, (const uint32_t[]){0, 1 + 2 * i, 2 + 2 * i}, 3 * sizeof *corners);
@@ -148,7 +149,7 @@ static void cross_spikes(uint32_t count, double width, uint32_t counted, size_t 
     stroke_scene  scene;
     crossing_list list;
     lmn_scene    *s = stroke_scene_begin();
-    put_spikes(s, count, width);
+    put_spikes(s, 0, count, width);
     assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
     assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, &error), LMN_OK);
     assert_int_equal(stroke_scene_create(&scene, &at_rest, NULL, 0.5, NULL, NULL, &error), LMN_OK);
@@ -194,6 +195,45 @@ static void spikes_cross_as_they_did(void **state)
     cross_spikes(240, 2, 60, &among, &among_sum, &compared);
     if (alone < 20 || among != alone || !(fabs(among_sum - alone_sum) < 1e-6 * alone_sum))
         fail_msg("60 spikes cross in %zu lines (%g), among others in %zu (%g)", alone, alone_sum, among, among_sum);
+}
+
+/* The narrower the more, so that as many lines cross. */
+static void make_spikes(lmn_scene *s, uint32_t count)
+{
+    put_spikes(s, 0, count, 4.0 / count);
+}
+
+static void make_wide_spikes(lmn_scene *s, uint32_t count)
+{
+    put_spikes(s, 0, count, 0.2);
+}
+
+/* The same in parts, which share no vertex. */
+static void make_parts_of_spikes(lmn_scene *s, uint32_t count)
+{
+    for (uint32_t first = 0; first < count; first += count / 4)
+        put_spikes(s, first, count / 4, 0.2);
+}
+
+/* Lines from the middle are held against what lies in their direction, and cells of the grid that have much else on
+ * their way are passed by. */
+static void spikes_hide_by_directions(void **state)
+{
+    (void)state;
+    outcome many = run(make_spikes, 4000);
+    if (many.entries > (uint64_t)4000 * 8000)
+        fail_msg("of 4000 spikes %g entries are looked at", (double)many.entries);
+}
+
+/* What hides does so whether it is one wheel or several pieces that are too small for any. */
+static void spikes_hide_what_their_parts_do(void **state)
+{
+    (void)state;
+    outcome whole = run(make_wide_spikes, 400), parts = run(make_parts_of_spikes, 400);
+    if (!(fabs(whole.visible - parts.visible) < 1e-3 * parts.visible) || !(whole.hidden > whole.visible) ||
+        !(fabs(whole.hidden - parts.hidden) < 1e-3 * parts.hidden))
+        fail_msg("%g px are seen and %g hidden, in parts %g and %g", whole.visible, whole.hidden, parts.visible,
+                 parts.hidden);
 }
 
 /* Small triangles, one behind the other, that are one pixel large, all of them, and one that is not. */
@@ -281,6 +321,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stars_grow_as_their_spokes),        cmocka_unit_test(ends_in_one_place_are_not_all_compared),
         cmocka_unit_test(spikes_are_compared_by_directions), cmocka_unit_test(spikes_cross_as_they_did),
+        cmocka_unit_test(spikes_hide_by_directions),         cmocka_unit_test(spikes_hide_what_their_parts_do),
         cmocka_unit_test(specks_grow_as_they_are_full),      cmocka_unit_test(surfaces_in_front_do_not_fill_the_grid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
