@@ -12,7 +12,7 @@
 #define NEAR    (0.6 * MM)
 #define STEP    (0.5 * MM)
 #define ROUND   (2 * MM)  /* what is shorter is not closed where its ends are near each other */
-#define LONGEST (24 * MM) /* with little detail */
+#define LONGEST (28 * MM) /* with little detail */
 #define STEEP   3         /* how much less with more: of the square of what detail lacks */
 
 typedef struct orphan_search {
