@@ -138,8 +138,9 @@ mat4 ground_map_from_eye(const frame *f, const view_camera *below);
 /* ground_cast.c: the one that the first light throws. */
 void ground_cast(frame *f);
 /* ground_height.c: how high over the ground it is what throws that, as a fraction of the light that is kept off: 1
- * where it stands there … 0 far up; over the square that the box of the shadow lies in. The caller gives it back. */
-gpu_texture *ground_height(frame *f, const double towards[3], const box3 *shadow, mat4 *from_eye);
+ * where it stands there … 0 far up; over the square that the box of the shadow lies in. Flat: for two tones, of which
+ * what does not stand there has the paler one. The caller gives it back. */
+gpu_texture *ground_height(frame *f, const double towards[3], const box3 *shadow, bool flat, mat4 *from_eye);
 
 /* What solids are evaluated for. */
 solid_view frame_solid_view(frame *f);

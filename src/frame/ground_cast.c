@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "light/appendages.h"
 #include "light/contour.h"
 #include "light/light.h"
 #include "light/scraps.h"
@@ -75,9 +76,10 @@ static void calm(frame *f, const int box[4], gpu_texture *dark)
     uint8_t *texels = mem_alloc(4 * count);
     if (texels)
         gpu_read_box(f->g, dark, box, texels);
-    if (!gpu_failed(f->g) && (!texels || !scraps_drop(texels, box[2], box[3], smoothing) ||
-                              !contours_calm(texels, box[2], box[3], smoothing) ||
-                              (softens && !coverage_spread(texels, box[2], box[3], smoothing))))
+    if (!gpu_failed(f->g) &&
+        (!texels || !scraps_drop(texels, box[2], box[3], smoothing) ||
+         !appendages_cut(texels, box[2], box[3], smoothing) || !contours_calm(texels, box[2], box[3], smoothing) ||
+         (softens && !coverage_spread(texels, box[2], box[3], smoothing))))
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     if (!gpu_failed(f->g))
         gpu_target_write(f->g, dark, box, texels);
@@ -162,7 +164,7 @@ void ground_cast(frame *f)
     if (!(values_of(f)->shadow_softness > 0))
         maps.dark = draw_hard(f, &s);
     if (values_of(f)->ground_fade > 0 && !gpu_failed(f->g))
-        maps.height = ground_height(f, towards, &lies, &maps.from_eye);
+        maps.height = ground_height(f, towards, &lies, values_of(f)->ground_flat, &maps.from_eye);
     lay_cast(f, &s, &maps);
     gpu_target_release(f->g, maps.dark);
     gpu_target_release(f->g, maps.height);

@@ -278,7 +278,7 @@ static void read_narrow(gpu *g, const gpu_texture *t, const int box[4], void *ou
         gpu_fail(g, LMN_MEMORY, "out of memory");
         return;
     }
-    glReadPixels(box[0], box[1], box[2], box[3], t->format == GPU_R32F ? GL_RGBA : GL_RGBA_INTEGER,
+    glReadPixels(box[0], box[1], box[2], box[3], formats[t->format].type == GL_FLOAT ? GL_RGBA : GL_RGBA_INTEGER,
                  formats[t->format].type, wide);
     for (size_t i = 0; i < count; i++)
         memcpy((char *)out + i * size, wide + i * 16, size);
@@ -292,7 +292,8 @@ void gpu_read_box(gpu *g, gpu_texture *t, const int box[4], void *out)
     gpu_pass_begin(g, &(gpu_pass){.colours = {t}, .colour_count = 1});
     glReadBuffer(GL_COLOR_ATTACHMENT0);
     GLenum type = t->format == GPU_RGBA16F ? GL_FLOAT : formats[t->format].type;
-    if (g->capabilities.es && (t->format == GPU_RG32UI || t->format == GPU_R32UI || t->format == GPU_R32F)) {
+    if (g->capabilities.es &&
+        (t->format == GPU_RG32UI || t->format == GPU_R32UI || t->format == GPU_R32F || t->format == GPU_RG16F)) {
         read_narrow(g, t, box, out);
         return;
     }

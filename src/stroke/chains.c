@@ -665,7 +665,8 @@ void stroke_set_release(stroke_set *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Leaves out what says least and what lies on other lines, but for what closes corners. */
+/* Leaves out what says least and what lies on other lines, but for what closes corners; then what belongs to
+ * nothing that is left. */
 static lmn_status leave_out(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error)
 {
     uint8_t *gone = mem_calloc(set->stroke_count + 1, 1);
@@ -675,6 +676,8 @@ static lmn_status leave_out(stroke_set *set, const stroke_view *v, const stroke_
     if (status == LMN_OK)
         status = strokes_thin(set, options->crowd, v->camera.width, v->camera.height, gone, error);
     if (status == LMN_OK && memchr(gone, 1, set->stroke_count) && !strokes_close_corners(set, gone))
+        status = error_memory(error);
+    if (status == LMN_OK && !strokes_drop_orphans(set, options->detail, gone))
         status = error_memory(error);
     size_t kept = 0;
     for (size_t i = 0; i < set->stroke_count && status == LMN_OK; i++)

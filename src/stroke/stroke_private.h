@@ -340,6 +340,11 @@ lmn_status strokes_choose(stroke_set *set, const stroke_view *v, const stroke_op
  * open. False: out of memory. */
 bool strokes_close_corners(const stroke_set *set, uint8_t *gone);
 
+/* --- orphans.c --- */
+/* Marks short inner lines that end in the open and have no other line near them, the longer ones the less detail there
+ * is. False: out of memory. */
+bool strokes_drop_orphans(const stroke_set *set, float detail, uint8_t *gone);
+
 /* --- crowd.c --- */
 /* Marks strokes that run all their length within about this many units of more important ones that are not gone; the
  * page's size in units. */

@@ -705,6 +705,34 @@ static void cast_shadows_fade(void)
     shape_release(&model);
 }
 
+/* Of two tones the darker one is what stands there has at its foot: a plate that hangs low over the ground throws the
+ * paler one, and with a leg the darker one. */
+static void dark_tone_lies_at_feet(void)
+{
+    const dvec light = dvec_of(-0.7, 0.75, 0.3), plate = dvec_of(2.3, 0.3, 1.7);
+    for (int stands = 0; stands < 2; stands++) {
+        shape model = {0};
+        shot  two;
+        shape_box(&model, "block", dvec_of(cast_low[0], cast_low[1], cast_low[2]),
+                  dvec_of(cast_high[0], cast_high[1], cast_high[2]));
+        shape_box(&model, "plate", dvec_of(2, 0.28, 1.4), dvec_of(2.6, 0.32, 2));
+        if (stands)
+            shape_box(&model, "leg", dvec_of(2.1, 0, 1.5), dvec_of(2.5, 0.28, 1.9));
+        shape_box(&model, "peg", dvec_of(-1.5, 0, 1.8), dvec_of(-1.4, 0.25, 1.9));
+        shape_box(&model, "other peg", dvec_of(-1.5, 0, -1.8), dvec_of(-1.4, 0.25, -1.7));
+        if (shoot_cast(&two, &model,
+                       "\"ground_strength\":1,\"ground_fade\":0.8,\"ground_reach\":0.2,\"ground_flat\":true", false)) {
+            int dark = dark_below(&two, plate, light, 0.5);
+            if (stands)
+                check_at_least("ground", dark, 30, "pixels of the darker tone below a plate that stands on a leg");
+            else
+                check_at_most("ground", dark, 0, "pixels of the darker tone below a plate that hangs");
+            shot_release(&two);
+        }
+        shape_release(&model);
+    }
+}
+
 /* Things that stand at different heights would throw their shadows far below themselves. */
 static void cast_shadows_need_a_level(void)
 {
@@ -749,6 +777,7 @@ int main(int argc, char **argv)
         {"scraps", scraps_of_shadow_are_left_out},
         {"corners", calm_shadows_keep_corners},
         {"fade", cast_shadows_fade},
+        {"feet", dark_tone_lies_at_feet},
     };
     int status = check_main(argc, argv, "ground", cases, sizeof cases / sizeof *cases);
     shot_end();

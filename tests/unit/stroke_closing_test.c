@@ -1,4 +1,5 @@
-/* What comes back of lines that were left out: what closes a corner, and nothing else. */
+/* What comes back of lines that were left out: what closes a corner, and nothing else; and what goes since it belongs
+ * to nothing. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -130,12 +131,59 @@ static void test_hidden_lines_do_not_count(void **state)
     assert_false(d.gone[side]);
 }
 
+/* What ends in the open with nothing near it goes, alone or where two meet; with all detail it stays. */
+static void test_ticks_go(void **state)
+{
+    (void)state;
+    for (int all = 0; all < 2; all++) {
+        drawing d = {.set = {0}};
+        add(&d, 10, 10, 60, 10, false);
+        const size_t tick = add(&d, 20, 20, 23, 20, false), hook = add(&d, 30, 20, 32, 20, false),
+                     hooked = add(&d, 32, 20, 32, 22, false);
+        for (size_t i = 0; i < d.set.stroke_count; i++)
+            d.strokes[i].kind = STROKE_CREASE;
+        assert_true(strokes_drop_orphans(&d.set, all ? 1 : 0.6f, d.gone));
+        assert_false(d.gone[0]);
+        assert_int_equal(d.gone[tick], !all);
+        assert_int_equal(d.gone[hook], !all);
+        assert_int_equal(d.gone[hooked], !all);
+    }
+}
+
+/* What meets or nears other lines stays, and what closes, outlines, long lines and the only ones of a part. */
+static void test_lines_that_belong_stay(void **state)
+{
+    (void)state;
+    drawing d = {.set = {0}};
+    add(&d, 10, 10, 60, 10, false);
+    add(&d, 20, 10, 20, 13, false);    /* meets it */
+    add(&d, 30, 8.5, 30, 11.5, false); /* crosses it */
+    add(&d, 40, 10.5, 40, 13, false);  /* nears it */
+    add(&d, 20, 20, 21, 20, false);    /* three sides that close */
+    add(&d, 21, 20, 21, 21, false);
+    add(&d, 21, 21, 20, 20, false);
+    const size_t outline = add(&d, 30, 30, 32, 30, false), alone = add(&d, 40, 40, 42, 40, false);
+    add(&d, 30, 50, 45, 50, false); /* long enough */
+    for (size_t i = 0; i < d.set.stroke_count; i++)
+        d.strokes[i].kind = i == outline ? STROKE_CONTOUR : STROKE_CREASE;
+    d.strokes[alone].part = 7;
+    assert_true(strokes_drop_orphans(&d.set, 0.6f, d.gone));
+    for (size_t i = 0; i < d.set.stroke_count; i++)
+        if (d.gone[i])
+            fail_msg("stroke %zu is gone", i);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_short_sides_come_back),    cmocka_unit_test(test_ways_of_two_come_back),
-        cmocka_unit_test(test_others_stay_away),         cmocka_unit_test(test_lines_beside_ends_come_back),
-        cmocka_unit_test(test_thin_lines_close_corners), cmocka_unit_test(test_hidden_lines_do_not_count),
+        cmocka_unit_test(test_short_sides_come_back),
+        cmocka_unit_test(test_ways_of_two_come_back),
+        cmocka_unit_test(test_others_stay_away),
+        cmocka_unit_test(test_lines_beside_ends_come_back),
+        cmocka_unit_test(test_thin_lines_close_corners),
+        cmocka_unit_test(test_hidden_lines_do_not_count),
+        cmocka_unit_test(test_ticks_go),
+        cmocka_unit_test(test_lines_that_belong_stay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,10 +52,11 @@ static const param params[] = {
            .along = true, .doc = "Lines shorter than this are left out."),
     NUMBER("crowd", options.crowd, .def = 0.5625, .min = 0, .max = 12, .soft_max = 3, .unit = UNIT_PT,
            .doc = "Lines that run all their length this close to more important ones are left out; 0 keeps them all."),
-    NUMBER("detail", options.detail, .def = 0.75, .min = 0, .max = 1, .unit = UNIT_FRACTION,
-           .doc =
-               "How many lines are drawn where they crowd, with visibility exact: the least important ones go first, "
-               "whole, and small pieces keep their outlines alone; 1 draws all."),
+    NUMBER(
+        "detail", options.detail, .def = 0.75, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+        .doc =
+            "How many lines are drawn where they crowd, with visibility exact: the least important ones go first, "
+            "whole, small pieces keep their outlines alone, and short lines that belong to nothing go; 1 draws all."),
     NUMBER("simplify", options.simplify, .def = 0.075, .min = 0, .max = 6, .soft_max = 1.5, .unit = UNIT_PT,
            .doc = "How far points of lines may move so that fewer are needed."),
     NUMBER("crease_width", style.crease_width, .def = 0.7, .min = 0.1, .max = 2, .soft_max = 1, .unit = UNIT_FRACTION,

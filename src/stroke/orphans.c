@@ -1,0 +1,186 @@
+/* Lines that belong to nothing. Short lines inside an outline that end in the open, with no other line near, say
+ * nothing of the form: creases that a mesh has there by chance, which a draughtsman leaves out. Lines that meet or come
+ * near each other are judged together, by their length. What closes, like the rim of a small hole, stays, and so does
+ * what a part has no other lines than. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "stroke/pieces.h"
+
+#define MM      PAPER_UNITS_PER_MM
+#define NEAR    (0.6 * MM)
+#define STEP    (0.5 * MM)
+#define ROUND   (2 * MM)  /* what is shorter is not closed where its ends are near each other */
+#define LONGEST (28 * MM) /* with little detail */
+#define STEEP   3         /* how much less with more: of the square of what detail lacks */
+
+typedef struct orphan_search {
+    const stroke_set *set;
+    uint8_t          *gone;
+    page_pieces       drawn;
+    double            longest;
+    uint32_t         *group;  /* per stroke: another one of its group, the first at last */
+    float            *length; /* per stroke; of the first of a group then all of it */
+    uint8_t          *ends;   /* the same: does one end in the open? */
+    uint8_t          *kept;   /* the same: whatever its length */
+} orphan_search;
+
+static bool is_drawn(const orphan_search *o, size_t i)
+{
+    return !o->gone[i] && o->set->strokes[i].hidden_by == 0 && o->set->strokes[i].count > 1;
+}
+
+/* Outlines and what files bring mean something, however short. */
+static bool is_inner(const stroke *s)
+{
+    return s->kind != STROKE_CONTOUR && s->kind != STROKE_BORDER && s->kind != STROKE_DRAWN &&
+           s->kind != STROKE_SPEED && s->kind != STROKE_PAST;
+}
+
+static uint32_t group_of(orphan_search *o, uint32_t i)
+{
+    while (o->group[i] != i)
+        i = o->group[i] = o->group[o->group[i]];
+    return i;
+}
+
+/* Puts all that is near a place into one group with the stroke; is there anything? */
+static bool unite_near(orphan_search *o, uint32_t own, const stroke_point *at)
+{
+    const page_pieces *p = &o->drawn;
+    const int          row = page_pieces_cell(at->y, p->low[1], p->rows),
+              column = page_pieces_cell(at->x, p->low[0], p->columns);
+    bool found = false;
+    for (int cell = 0; cell < 9; cell++) {
+        const int r = row + cell / 3 - 1, c = column + cell % 3 - 1;
+        if (r < 0 || c < 0 || r >= p->rows || c >= p->columns)
+            continue;
+        for (uint32_t i = p->heads[(size_t)r * (size_t)p->columns + (size_t)c]; i; i = p->items[i - 1].next) {
+            const piece *of = &p->items[i - 1];
+            if (of->stroke == own || !piece_is_near(at, &o->set->points[of->point], NEAR))
+                continue;
+            found = true;
+            o->group[group_of(o, of->stroke)] = group_of(o, own);
+        }
+    }
+    return found;
+}
+
+static double length_of(const orphan_search *o, const stroke *s)
+{
+    double length = 0;
+    for (uint32_t k = 1; k < s->count; k++) {
+        const stroke_point *q = &o->set->points[s->first + k];
+        length += hypot((double)q->x - q[-1].x, (double)q->y - q[-1].y);
+    }
+    return length;
+}
+
+/* A stroke that is short enough may also be crossed or run along by others between its ends. */
+static void unite_along(orphan_search *o, uint32_t own)
+{
+    const stroke *s = &o->set->strokes[own];
+    for (uint32_t k = 0; k + 1 < s->count; k++) {
+        const stroke_point *a = &o->set->points[s->first + k], *b = a + 1;
+        const int           steps = (int)(hypot((double)b->x - a->x, (double)b->y - a->y) / STEP) + 1;
+        for (int i = 1; i < steps; i++) {
+            const float t = (float)i / (float)steps;
+            unite_near(o, own, &(stroke_point){.x = a->x + t * (b->x - a->x), .y = a->y + t * (b->y - a->y)});
+        }
+    }
+}
+
+static bool is_closed(const orphan_search *o, uint32_t i)
+{
+    const stroke       *s = &o->set->strokes[i];
+    const stroke_point *a = &o->set->points[s->first], *b = &o->set->points[s->first + s->count - 1];
+    return s->closed || ((double)o->length[i] > ROUND && hypot((double)b->x - a->x, (double)b->y - a->y) <= NEAR);
+}
+
+static void look_around(orphan_search *o, uint32_t i)
+{
+    const stroke *s = &o->set->strokes[i];
+    o->length[i] = (float)length_of(o, s);
+    const bool first = unite_near(o, i, &o->set->points[s->first]),
+               last = unite_near(o, i, &o->set->points[s->first + s->count - 1]);
+    o->ends[i] = !is_closed(o, i) && !(first && last);
+    o->kept[i] = !is_inner(s) || is_closed(o, i);
+    if (is_inner(s) && (double)o->length[i] < o->longest)
+        unite_along(o, i);
+}
+
+static void add_up(orphan_search *o)
+{
+    for (uint32_t i = 0; i < o->set->stroke_count; i++) {
+        const uint32_t first = group_of(o, i);
+        if (first == i || !is_drawn(o, i))
+            continue;
+        o->length[first] += o->length[i];
+        o->ends[first] |= o->ends[i];
+        o->kept[first] |= o->kept[i];
+    }
+}
+
+static bool is_orphan(orphan_search *o, uint32_t i)
+{
+    const uint32_t first = group_of(o, i);
+    return is_drawn(o, i) && !o->kept[first] && o->ends[first] && (double)o->length[first] < o->longest;
+}
+
+/* Flags parts that have other lines. False: out of memory. */
+static bool leave_out_orphans(orphan_search *o)
+{
+    uint32_t parts = 0;
+    for (size_t i = 0; i < o->set->stroke_count; i++)
+        parts = o->set->strokes[i].part > parts ? o->set->strokes[i].part : parts;
+    uint8_t *others = mem_calloc((size_t)parts + 1, 1);
+    for (uint32_t i = 0; i < o->set->stroke_count && others; i++)
+        if (is_drawn(o, i) && !is_orphan(o, i))
+            others[o->set->strokes[i].part] = 1;
+    uint8_t *goes = others ? mem_calloc(o->set->stroke_count, 1) : NULL;
+    for (uint32_t i = 0; i < o->set->stroke_count && goes; i++)
+        goes[i] = is_orphan(o, i) && others[o->set->strokes[i].part];
+    for (uint32_t i = 0; i < o->set->stroke_count && goes; i++)
+        o->gone[i] |= goes[i];
+    const bool good = goes != NULL;
+    mem_free(others);
+    mem_free(goes);
+    return good;
+}
+
+static double longest_of(float detail)
+{
+    const double lacks = 1 - (double)detail;
+    return LONGEST * fmin(STEEP * lacks * lacks, 1);
+}
+
+bool strokes_drop_orphans(const stroke_set *set, float detail, uint8_t *gone)
+{
+    orphan_search o = {.set = set, .gone = gone, .longest = longest_of(detail)};
+    const size_t  count = set->stroke_count;
+    if (!(detail < 1) || count == 0)
+        return true;
+    o.group = mem_alloc(count * sizeof *o.group);
+    o.length = mem_calloc(count, sizeof *o.length);
+    o.ends = mem_calloc(count, 1);
+    o.kept = mem_calloc(count, 1);
+    bool good = page_pieces_open(&o.drawn, set) && o.group && o.length && o.ends && o.kept;
+    for (uint32_t i = 0; i < count && good; i++) {
+        o.group[i] = i;
+        good = !is_drawn(&o, i) || page_pieces_put(&o.drawn, i);
+    }
+    for (uint32_t i = 0; i < count && good; i++)
+        if (is_drawn(&o, i))
+            look_around(&o, i);
+    if (good) {
+        add_up(&o);
+        good = leave_out_orphans(&o);
+    }
+    page_pieces_close(&o.drawn);
+    mem_free(o.group);
+    mem_free(o.length);
+    mem_free(o.ends);
+    mem_free(o.kept);
+    return good;
+}
