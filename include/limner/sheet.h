@@ -46,7 +46,8 @@ typedef struct lmn_sheet_desc {
     bool        loose_hatch;  /* hatching of cut faces as one line after the other, for programs that know no patterns;
                                  else faces that are seen as a whole have a pattern. Plotters have lines. Since 0.1 */
     const char *threads; /* parts whose threads are drawn by their symbol (ISO 6410-1), a selector, "*": all; modelled
-                            ones, and of parts called "M8" and the like those cylinders; NULL: none. Since 0.1 */
+                            ones, and of parts called "M8" and the like those cylinders; matching no part is LMN_USAGE;
+                            NULL: none. Since 0.1 */
 } lmn_sheet_desc;
 #define LMN_SHEET_DESC_INIT                                                                                            \
     {                                                                                                                  \

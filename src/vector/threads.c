@@ -16,6 +16,14 @@ lmn_status vector_smooth_threads(vector_job *j, lmn_error *error)
         return LMN_OK;
     lmn_status status = section_spare(&matched, j->scene, j->wanted->threads, error);
     j->threaded = matched.spared;
+    bool any = false;
+    for (size_t i = 0; status == LMN_OK && i < j->scene->part_count; i++)
+        any = any || j->threaded[i];
+    if (status == LMN_OK && !any) {
+        status = error_set(error, LMN_USAGE, "the selection '%s' of threads matches none of %zu parts",
+                           j->wanted->threads, j->scene->part_count);
+        error_hint(error, "`limner info` lists the parts with their names and paths");
+    }
     if (status == LMN_OK)
         status = draft_threads_smooth(&j->scene, &j->smooth, j->scene, j->threaded,
                                       (double)v->crease_angle * (3.14159265358979323846 / 180), error);

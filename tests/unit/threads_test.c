@@ -418,9 +418,6 @@ static void shafts_have_the_symbol(void **state)
     assert_int_equal(lines_of(s, "view-front", "thread", l, MOST), 0);
     assert_true(lines_of(s, "view-front", "visible", l, MOST) > 30);
     lmn_sheet_destroy(&s);
-    s = draw(scene, "front", NULL, "nothing of that name");
-    assert_int_equal(lines_of(s, "view-front", "thread", l, MOST), 0);
-    lmn_sheet_destroy(&s);
     lmn_scene_destroy(&scene);
 }
 
@@ -547,6 +544,12 @@ static void selectors_are_checked(void **state)
     d.threads = "[";
     assert_int_equal(lmn_look_load(&look, "technical", &error), LMN_OK);
     assert_int_equal(lmn_draw_sheet(&s, NULL, scene, look, &how, &d, &error), LMN_USAGE);
+    d.threads = "nobody";
+    assert_int_equal(lmn_draw_sheet(&s, NULL, scene, look, &how, &d, &error), LMN_USAGE);
+    assert_non_null(strstr(error.message, "'nobody' of threads matches none"));
+    d.threads = "*";
+    assert_int_equal(lmn_draw_sheet(&s, NULL, scene, look, &how, &d, &error), LMN_OK);
+    lmn_sheet_destroy(&s);
     lmn_look_destroy(&look);
     lmn_scene_destroy(&scene);
 }
