@@ -36,22 +36,15 @@ typedef enum meeting_kind { MEETS_NOTHING, MEETS_OPEN_END, MEETS_LINES } meeting
 
 static meeting_kind meeting_at(const page_pieces *p, const stroke_point *at)
 {
-    const int row = page_pieces_cell(at->y, p->low[1], p->rows),
-              column = page_pieces_cell(at->x, p->low[0], p->columns);
-    uint32_t found = UINT32_MAX;
-    for (int r = row - 1; r <= row + 1; r++)
-        for (int c = column - 1; c <= column + 1; c++) {
-            if (r < 0 || c < 0 || r >= p->rows || c >= p->columns)
-                continue;
-            for (uint32_t i = p->heads[(size_t)r * (size_t)p->columns + (size_t)c]; i; i = p->items[i - 1].next) {
-                const piece *of = &p->items[i - 1];
-                if (of->stroke == found || !piece_is_near(at, &p->set->points[of->point], TOUCHES))
-                    continue;
-                if (found != UINT32_MAX || !is_end(p->set, &p->set->strokes[of->stroke], at))
-                    return MEETS_LINES;
-                found = of->stroke;
-            }
-        }
+    pieces_walk walk = pieces_around(p, at);
+    uint32_t    found = UINT32_MAX;
+    for (const piece *of = pieces_walk_next(&walk); of; of = pieces_walk_next(&walk)) {
+        if (of->stroke == found || !piece_is_near(at, &p->set->points[of->point], TOUCHES))
+            continue;
+        if (found != UINT32_MAX || !is_end(p->set, &p->set->strokes[of->stroke], at))
+            return MEETS_LINES;
+        found = of->stroke;
+    }
     return found == UINT32_MAX ? MEETS_NOTHING : MEETS_OPEN_END;
 }
 
@@ -95,25 +88,17 @@ static const stroke_point *leads_to(const stroke_set *set, const stroke *s, cons
 static bool find_way(way *w, const page_pieces *drawn, const page_pieces *left, const uint8_t *gone,
                      const stroke_point *at, int most)
 {
-    const int row = page_pieces_cell(at->y, left->low[1], left->rows),
-              column = page_pieces_cell(at->x, left->low[0], left->columns);
-    for (int r = row - 1; r <= row + 1; r++)
-        for (int c = column - 1; c <= column + 1; c++) {
-            if (r < 0 || c < 0 || r >= left->rows || c >= left->columns)
-                continue;
-            for (uint32_t i = left->heads[(size_t)r * (size_t)left->columns + (size_t)c]; i;
-                 i = left->items[i - 1].next) {
-                const uint32_t      index = left->items[i - 1].stroke;
-                const stroke_point *to =
-                    gone[index] && !is_on(w, index) ? leads_to(left->set, &left->set->strokes[index], at) : NULL;
-                if (!to)
-                    continue;
-                w->strokes[w->count++] = index;
-                if (w->count < most ? find_way(w, drawn, left, gone, to, most) : meeting_at(drawn, to) != MEETS_NOTHING)
-                    return true;
-                w->count--;
-            }
-        }
+    pieces_walk walk = pieces_around(left, at);
+    for (const piece *of = pieces_walk_next(&walk); of; of = pieces_walk_next(&walk)) {
+        const stroke_point *to =
+            gone[of->stroke] && !is_on(w, of->stroke) ? leads_to(left->set, &left->set->strokes[of->stroke], at) : NULL;
+        if (!to)
+            continue;
+        w->strokes[w->count++] = of->stroke;
+        if (w->count < most ? find_way(w, drawn, left, gone, to, most) : meeting_at(drawn, to) != MEETS_NOTHING)
+            return true;
+        w->count--;
+    }
     return false;
 }
 
@@ -121,24 +106,16 @@ static bool find_way(way *w, const page_pieces *drawn, const page_pieces *left, 
 static bool find_beside(way *w, const page_pieces *drawn, const page_pieces *left, const uint8_t *gone,
                         const stroke_point *at)
 {
-    const int row = page_pieces_cell(at->y, left->low[1], left->rows),
-              column = page_pieces_cell(at->x, left->low[0], left->columns);
-    for (int r = row - 1; r <= row + 1; r++)
-        for (int c = column - 1; c <= column + 1; c++) {
-            if (r < 0 || c < 0 || r >= left->rows || c >= left->columns)
-                continue;
-            for (uint32_t i = left->heads[(size_t)r * (size_t)left->columns + (size_t)c]; i;
-                 i = left->items[i - 1].next) {
-                const piece  *of = &left->items[i - 1];
-                const stroke *s = &left->set->strokes[of->stroke];
-                if (gone[of->stroke] && piece_is_near(at, &left->set->points[of->point], BESIDE) &&
-                    meeting_at(drawn, point_of(left->set, s, false)) != MEETS_NOTHING &&
-                    meeting_at(drawn, point_of(left->set, s, true)) != MEETS_NOTHING) {
-                    *w = (way){.strokes = {of->stroke}, .count = 1};
-                    return true;
-                }
-            }
+    pieces_walk walk = pieces_around(left, at);
+    for (const piece *of = pieces_walk_next(&walk); of; of = pieces_walk_next(&walk)) {
+        const stroke *s = &left->set->strokes[of->stroke];
+        if (gone[of->stroke] && piece_is_near(at, &left->set->points[of->point], BESIDE) &&
+            meeting_at(drawn, point_of(left->set, s, false)) != MEETS_NOTHING &&
+            meeting_at(drawn, point_of(left->set, s, true)) != MEETS_NOTHING) {
+            *w = (way){.strokes = {of->stroke}, .count = 1};
+            return true;
         }
+    }
     return false;
 }
 

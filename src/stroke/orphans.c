@@ -48,21 +48,13 @@ static uint32_t group_of(orphan_search *o, uint32_t i)
 /* Puts all that is near a place into one group with the stroke; is there anything? */
 static bool unite_near(orphan_search *o, uint32_t own, const stroke_point *at)
 {
-    const page_pieces *p = &o->drawn;
-    const int          row = page_pieces_cell(at->y, p->low[1], p->rows),
-              column = page_pieces_cell(at->x, p->low[0], p->columns);
-    bool found = false;
-    for (int cell = 0; cell < 9; cell++) {
-        const int r = row + cell / 3 - 1, c = column + cell % 3 - 1;
-        if (r < 0 || c < 0 || r >= p->rows || c >= p->columns)
+    pieces_walk walk = pieces_around(&o->drawn, at);
+    bool        found = false;
+    for (const piece *of = pieces_walk_next(&walk); of; of = pieces_walk_next(&walk)) {
+        if (of->stroke == own || !piece_is_near(at, &o->set->points[of->point], NEAR))
             continue;
-        for (uint32_t i = p->heads[(size_t)r * (size_t)p->columns + (size_t)c]; i; i = p->items[i - 1].next) {
-            const piece *of = &p->items[i - 1];
-            if (of->stroke == own || !piece_is_near(at, &o->set->points[of->point], NEAR))
-                continue;
-            found = true;
-            o->group[group_of(o, of->stroke)] = group_of(o, own);
-        }
+        found = true;
+        o->group[group_of(o, of->stroke)] = group_of(o, own);
     }
     return found;
 }

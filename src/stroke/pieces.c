@@ -29,7 +29,7 @@ void page_pieces_close(page_pieces *p)
     mem_free(p->items);
 }
 
-int page_pieces_cell(double at, double low, int cells)
+static int cell_of(double at, double low, int cells)
 {
     return (int)fmin(fmax((at - low) / PIECES_CELL, 0), cells - 1);
 }
@@ -42,8 +42,8 @@ static bool put_piece(page_pieces *p, uint32_t stroke, uint32_t point)
     const int           steps = (int)(hypot(x, y) / (PIECES_CELL / 2)) + 1;
     size_t              last = SIZE_MAX;
     for (int i = 0; i <= steps; i++) {
-        const size_t cell = (size_t)page_pieces_cell(a->y + y * i / steps, p->low[1], p->rows) * (size_t)p->columns +
-                            (size_t)page_pieces_cell(a->x + x * i / steps, p->low[0], p->columns);
+        const size_t cell = (size_t)cell_of(a->y + y * i / steps, p->low[1], p->rows) * (size_t)p->columns +
+                            (size_t)cell_of(a->x + x * i / steps, p->low[0], p->columns);
         if (cell == last)
             continue;
         if (!mem_grow((void **)&p->items, &p->capacity, p->count + 1, sizeof *p->items))
@@ -62,6 +62,26 @@ bool page_pieces_put(page_pieces *p, size_t index)
     for (uint32_t k = 0; k + 1 < s->count && good; k++)
         good = put_piece(p, (uint32_t)index, s->first + k);
     return good;
+}
+
+pieces_walk pieces_around(const page_pieces *p, const stroke_point *at)
+{
+    return (pieces_walk){.pieces = p,
+                         .row = cell_of(at->y, p->low[1], p->rows) - 1,
+                         .column = cell_of(at->x, p->low[0], p->columns) - 1};
+}
+
+const piece *pieces_walk_next(pieces_walk *w)
+{
+    const page_pieces *p = w->pieces;
+    for (; !w->next && w->cell < 9; w->cell++) {
+        const int row = w->row + w->cell / 3, column = w->column + w->cell % 3;
+        if (row >= 0 && column >= 0 && row < p->rows && column < p->columns)
+            w->next = p->heads[(size_t)row * (size_t)p->columns + (size_t)column];
+    }
+    const piece *found = w->next ? &p->items[w->next - 1] : NULL;
+    w->next = found ? found->next : 0;
+    return found;
 }
 
 bool piece_is_near(const stroke_point *at, const stroke_point *a, double most)

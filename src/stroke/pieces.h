@@ -25,7 +25,17 @@ typedef struct page_pieces {
 bool page_pieces_open(page_pieces *p, const stroke_set *set);
 void page_pieces_close(page_pieces *p);
 bool page_pieces_put(page_pieces *p, size_t stroke); /* of its set; false: out of memory */
-int  page_pieces_cell(double at, double low, int cells);
+
+/* A walk over the pieces in the cells around a place; each may come several times. */
+typedef struct pieces_walk {
+    const page_pieces *pieces;
+    int                row, column, cell;
+    uint32_t           next;
+} pieces_walk;
+
+pieces_walk  pieces_around(const page_pieces *p, const stroke_point *at);
+const piece *pieces_walk_next(pieces_walk *w); /* NULL: that was all */
+
 bool piece_is_near(const stroke_point *at, const stroke_point *a, double most); /* … a straight piece from a on */
 
 #endif

@@ -19,22 +19,7 @@ vec2 turn_of_degrees(float degrees)
     return vec2(cosine, sine);
 }
 
-/* Ink of the strokes on a plane. On the page they are as large as they were made; on surfaces two sizes hand over to each other as one comes nearer. */
-float strokes_at(stroke_plane s, float darkness, vec2 start)
-{
-#if defined(HAS_FORM) || COORDINATES == 2
-    return map_ink(s.at * page_unit() / (u_tones_facts.x * u_scale) + start, 0.0, darkness);
-#else
-    float level = screen_level(s, u_tones_facts.x, u_scale), bare = 1.0;
-    for (int k = 0; k < 2; k++) {
-        screen_octave o = octave_of(s, level, k, -1e9, false);
-        int used = o.weight > 0.01 ? 1 : 0;
-        for (int once = 0; once < used; once++)
-            bare *= 1.0 - map_ink(s.at * o.scale + start, o.level, darkness_of_fraction(darkness, o.weight));
-    }
-    return 1.0 - bare;
-#endif
-}
+#include "surface/halftone/map_strokes.glsl"
 
 /* Fraction of the paper that one time over covers. Row P36: each turns and starts elsewhere, so that what is seen of one's seams others cover. */
 float cover_of(float darkness, int overlay)
