@@ -103,8 +103,10 @@ lmn_status build_image_bytes(const import_job *job, const char *name, const unsi
     lmn_status   status = image_read(&pixels, bytes, size, capacity, &problem);
     if (status == LMN_MEMORY)
         return error_set(error, status, "texture \"%s\": %s", name, problem.message);
-    if (status == LMN_CANCELLED || work_stopped())
+    if (status == LMN_CANCELLED || work_stopped()) {
+        mem_free(pixels.rgba); /* time may run out while it is read, and it is read nevertheless */
         return work_check(error);
+    }
     if (status != LMN_OK) {
         warnings_add(&job->scene->warnings, WARNING_BAD_TEXTURE, "texture \"%s\": %s", name, problem.message);
         return LMN_OK;
