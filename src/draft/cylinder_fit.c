@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/vector3.h"
+#include "draft/eigenvectors.h"
 
 enum { ROUNDS = 6, UNKNOWNS = 6, JACOBI_ROUNDS = 12 };
 
@@ -158,40 +159,14 @@ bool cylinder_refine(cylinder_fit *c, const double (*points)[3], size_t count)
     return true;
 }
 
-/* Turns rows and columns p and q of a symmetric matrix so that the number between them becomes 0 (Jacobi). */
-static void rotate(double m[3][3], double axes[3][3], int p, int q)
-{
-    if (m[p][q] == 0)
-        return;
-    double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
-    double t = (theta >= 0 ? 1 : -1) / (fabs(theta) + sqrt(theta * theta + 1)), c = 1 / sqrt(t * t + 1), s = t * c;
-    for (int k = 0; k < 3; k++) {
-        double a = m[k][p], b = m[k][q];
-        m[k][p] = c * a - s * b;
-        m[k][q] = s * a + c * b;
-    }
-    for (int k = 0; k < 3; k++) {
-        double a = m[p][k], b = m[q][k];
-        m[p][k] = c * a - s * b;
-        m[q][k] = s * a + c * b;
-        a = axes[k][p];
-        b = axes[k][q];
-        axes[k][p] = c * a - s * b;
-        axes[k][q] = s * a + c * b;
-    }
-}
-
 void cylinder_axis_of_normals(double out[3], const double (*normals)[3], size_t count)
 {
-    double m[3][3] = {{0}}, axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double m[3][3] = {{0}}, axes[3][3];
     for (size_t i = 0; i < count; i++)
         for (int a = 0; a < 3; a++)
             for (int b = 0; b < 3; b++)
                 m[a][b] += normals[i][a] * normals[i][b];
-    for (int i = 0; i < JACOBI_ROUNDS; i++)
-        for (int p = 0; p < 2; p++)
-            for (int q = p + 1; q < 3; q++)
-                rotate(m, axes, p, q);
+    eigenvectors_find(&axes[0][0], &m[0][0], 3, JACOBI_ROUNDS);
     int least = 0;
     for (int k = 1; k < 3; k++)
         least = m[k][k] < m[least][least] ? k : least;

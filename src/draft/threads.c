@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "base/vector3.h"
 #include "draft/cylinder_fit.h"
+#include "draft/eigenvectors.h"
 #include "draft/faces.h"
 
 enum { UNKNOWNS = 6, JACOBI_ROUNDS = 24, FACES_LEAST = 24, FITS = 5 };
@@ -110,37 +111,6 @@ static bool find_components(finder *f)
 
 /* --- the motion ----------------------------------------------------------------------------------------- */
 
-/* The eigenvectors of a symmetric matrix, in the columns of `axes`; its diagonal gets the eigenvalues (Jacobi). */
-static void eigenvectors(double m[UNKNOWNS][UNKNOWNS], double axes[UNKNOWNS][UNKNOWNS])
-{
-    for (int i = 0; i < UNKNOWNS; i++)
-        for (int k = 0; k < UNKNOWNS; k++)
-            axes[i][k] = i == k;
-    for (int round = 0; round < JACOBI_ROUNDS; round++)
-        for (int p = 0; p < UNKNOWNS; p++)
-            for (int q = p + 1; q < UNKNOWNS; q++) {
-                if (fabs(m[p][q]) < 1e-300)
-                    continue;
-                double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
-                double t = (theta >= 0 ? 1 : -1) / (fabs(theta) + sqrt(theta * theta + 1)), c = 1 / sqrt(t * t + 1),
-                       s = t * c;
-                for (int k = 0; k < UNKNOWNS; k++) {
-                    double a = m[k][p], b = m[k][q];
-                    m[k][p] = c * a - s * b;
-                    m[k][q] = s * a + c * b;
-                }
-                for (int k = 0; k < UNKNOWNS; k++) {
-                    double a = m[p][k], b = m[q][k];
-                    m[p][k] = c * a - s * b;
-                    m[q][k] = s * a + c * b;
-                    a = axes[k][p];
-                    b = axes[k][q];
-                    axes[k][p] = c * a - s * b;
-                    axes[k][q] = s * a + c * b;
-                }
-            }
-}
-
 static void place_around(const winding *w, const double p[3], double *along, double radius[3], double *away)
 {
     double d[3];
@@ -185,7 +155,7 @@ static bool fit_motion(const finder *f, size_t component, winding *w)
                     return false;
             }
         }
-    eigenvectors(m, axes);
+    eigenvectors_find(&axes[0][0], &m[0][0], UNKNOWNS, JACOBI_ROUNDS);
     int least = 0;
     for (int k = 1; k < UNKNOWNS; k++)
         least = m[k][k] < m[least][least] ? k : least;
