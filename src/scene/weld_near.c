@@ -7,6 +7,7 @@
 #include "scene/mesh.h"
 
 #define FREE UINT32_MAX
+enum { BLOCK = 32 };
 
 typedef struct near_table {
     const vec3 *positions;
@@ -41,11 +42,11 @@ static void cell_of(const near_table *t, vec3 p, double aside, double cell[3])
     cell[2] = cell_along(t, p.z, aside);
 }
 
-static uint32_t find_in(const near_table *t, vec3 p, const double cell[3])
+static uint32_t find_in(const near_table *t, vec3 p, size_t slot)
 {
     enum { MOST = 64 }; /* so many share a slot only in meshes that are made to be slow */
     int left = MOST;
-    for (uint32_t i = t->heads[cell_hash(cell) & t->mask]; i != FREE && left-- > 0; i = t->nexts[i]) {
+    for (uint32_t i = t->heads[slot]; i != FREE && left-- > 0; i = t->nexts[i]) {
         vec3   q = t->positions[i];
         double x = (double)q.x - p.x, y = (double)q.y - p.y, z = (double)q.z - p.z;
         if (x * x + y * y + z * z <= t->tolerance * t->tolerance)
@@ -54,19 +55,49 @@ static uint32_t find_in(const near_table *t, vec3 p, const double cell[3])
     return FREE;
 }
 
-/* An earlier vertex that lies so near; `own`: the vertex's cell. Most lie far from their cell's borders. */
-static uint32_t find_near(const near_table *t, vec3 p, const double own[3])
+/* Where a vertex is looked up. Most lie far from their cell's borders. */
+typedef struct near_place {
+    double sides[2][3]; /* cells of the vertex moved by the tolerance either way along each axis */
+    size_t slot;        /* of its own cell */
+    bool   at_border;   /* these differ */
+} near_place;
+
+static size_t slot_beside(const near_table *t, const near_place *p, int corner)
 {
-    double   sides[2][3];
-    uint32_t found = find_in(t, p, own);
-    cell_of(t, p, -1, sides[0]);
-    cell_of(t, p, 1, sides[1]);
-    if (memcmp(sides[0], own, sizeof sides[0]) == 0 && memcmp(sides[1], own, sizeof sides[1]) == 0)
-        return found;
-    for (int corner = 0; corner < 8 && found == FREE; corner++) {
-        const double cell[3] = {sides[corner & 1][0], sides[corner >> 1 & 1][1], sides[corner >> 2 & 1][2]};
-        if (cell[0] != own[0] || cell[1] != own[1] || cell[2] != own[2])
-            found = find_in(t, p, cell);
+    const double cell[3] = {p->sides[corner & 1][0], p->sides[corner >> 1 & 1][1], p->sides[corner >> 2 & 1][2]};
+    return cell_hash(cell) & t->mask;
+}
+
+/* Is it the same cell as that of an earlier corner? Along an axis where both sides are one, the second one repeats it.
+ */
+static bool is_repeated(const near_place *p, int corner)
+{
+    for (int k = 0; k < 3; k++)
+        if (corner >> k & 1 && p->sides[0][k] == p->sides[1][k])
+            return true;
+    return false;
+}
+
+static near_place place_of(const near_table *t, vec3 p)
+{
+    near_place out;
+    double     own[3];
+    cell_of(t, p, 0, own);
+    cell_of(t, p, -1, out.sides[0]);
+    cell_of(t, p, 1, out.sides[1]);
+    out.slot = cell_hash(own) & t->mask;
+    out.at_border = memcmp(out.sides[0], out.sides[1], sizeof own) != 0;
+    return out;
+}
+
+/* An earlier vertex that lies so near. */
+static uint32_t find_near(const near_table *t, vec3 p, const near_place *place)
+{
+    uint32_t found = find_in(t, p, place->slot);
+    for (int corner = 0; corner < 8 && found == FREE && place->at_border; corner++) {
+        const size_t slot = slot_beside(t, place, corner);
+        if (slot != place->slot && !is_repeated(place, corner))
+            found = find_in(t, p, slot);
     }
     return found;
 }
@@ -78,6 +109,41 @@ double mesh_near(const vec3 *positions, size_t count)
         box = box3_with_point(box, positions[i]);
     double size = count ? box3_diagonal(box) : 0;
     return isfinite(size) ? size * 1e-6 : 0;
+}
+
+/* Vertices from `begin` to `end`. What they are looked up by is asked for ahead, as on large meshes each would wait for
+ * it. */
+static void weld_block(near_table *t, uint32_t *ids, uint32_t begin, uint32_t end)
+{
+    near_place places[BLOCK];
+    for (uint32_t i = begin; i < end; i++) {
+        const near_place *p = &places[i - begin];
+        places[i - begin] = place_of(t, t->positions[i]);
+        __builtin_prefetch(&t->heads[p->slot]);
+        for (int corner = 0; corner < 8 && p->at_border; corner++)
+            if (!is_repeated(p, corner))
+                __builtin_prefetch(&t->heads[slot_beside(t, p, corner)]);
+    }
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t likely = t->heads[places[i - begin].slot];
+        if (likely == FREE)
+            continue;
+        __builtin_prefetch(&t->positions[likely]);
+        __builtin_prefetch(&t->nexts[likely]);
+    }
+    for (uint32_t i = begin; i < end; i++) {
+        const vec3        p = t->positions[i];
+        const near_place *place = &places[i - begin];
+        if (ids[i] != i || !(fabsf(p.x) + fabsf(p.y) + fabsf(p.z) < INFINITY))
+            continue;
+        const uint32_t found = find_near(t, p, place);
+        if (found != FREE) {
+            ids[i] = found;
+            continue;
+        }
+        t->nexts[i] = t->heads[place->slot];
+        t->heads[place->slot] = i;
+    }
 }
 
 bool mesh_weld_near(const vec3 *positions, uint32_t *ids, size_t count, double tolerance)
@@ -94,21 +160,8 @@ bool mesh_weld_near(const vec3 *positions, uint32_t *ids, size_t count, double t
     bool good = t.heads && t.nexts;
     for (size_t i = 0; good && i < slots; i++)
         t.heads[i] = FREE;
-    for (uint32_t i = 0; good && i < count; i++) {
-        vec3 p = positions[i];
-        if (ids[i] != i || !(fabsf(p.x) + fabsf(p.y) + fabsf(p.z) < INFINITY))
-            continue;
-        double cell[3];
-        cell_of(&t, p, 0, cell);
-        uint32_t found = find_near(&t, p, cell);
-        if (found != FREE) {
-            ids[i] = found;
-            continue;
-        }
-        uint32_t *head = &t.heads[cell_hash(cell) & t.mask];
-        t.nexts[i] = *head;
-        *head = i;
-    }
+    for (size_t begin = 0; good && begin < count; begin += BLOCK)
+        weld_block(&t, ids, (uint32_t)begin, (uint32_t)(count - begin < BLOCK ? count : begin + BLOCK));
     mem_free(t.heads);
     mem_free(t.nexts);
     return good;

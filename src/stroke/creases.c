@@ -257,11 +257,11 @@ static bool next_step(const judge *j, strip_walk *w, double most, step *out)
         uint32_t left = leave_face(m, w->half, w->at, w->direction, &distance);
         if (left == EDGE_NO_FACE || j->facts->opposite[left] == EDGE_NO_FACE)
             return false;
-        vector rim = unit(minus(position(m, half_next(left)), position(m, left))),
-               out_of = cross(rim, face_normal(m, left / 3));
         width += distance;
         if (width > most)
             return false;
+        vector rim = unit(minus(position(m, half_next(left)), position(m, left))),
+               out_of = cross(rim, face_normal(m, left / 3));
         w->at = along(w->at, distance, w->direction);
         w->half = j->facts->opposite[left];
         double lengthways = dot(w->direction, rim), across = dot(w->direction, out_of),

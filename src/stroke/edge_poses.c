@@ -73,8 +73,9 @@ static bool copy_topology(edge_mesh *out, const edge_topology *t)
     out->pieces = mem_copy(from->pieces, faces * sizeof *out->pieces);
     out->materials = from->materials ? mem_copy(from->materials, faces * sizeof *out->materials) : NULL;
     out->said = from->said ? mem_copy(from->said, 3 * faces) : NULL;
-    return out->positions && out->normals && out->faces && out->pieces && (out->materials || !from->materials) &&
-           (out->said || !from->said) && drawn_copy(out, from);
+    out->opposite = mem_copy(t->opposite, 3 * faces * sizeof *out->opposite);
+    return out->opposite && out->positions && out->normals && out->faces && out->pieces &&
+           (out->materials || !from->materials) && (out->said || !from->said) && drawn_copy(out, from);
 }
 
 /* Edges of a range of vertices: of a copy of the mesh, which has no other ones. */

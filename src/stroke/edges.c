@@ -491,7 +491,8 @@ lmn_status edges_finish(edge_builder *b, lmn_status status, lmn_error *error)
     }
     mem_free(b->pieces);
     mem_free(b->normals);
-    mem_free(b->opposite);
+    out->opposite = b->opposite;
+    b->opposite = NULL;
     if (status != LMN_OK)
         edge_mesh_release(out);
     return status;
@@ -540,6 +541,7 @@ void edge_mesh_release(edge_mesh *m)
     mem_free(m->inward);
     mem_free(m->boxes);
     mem_free(m->planes);
+    mem_free(m->opposite);
     mem_free(m->said);
     mem_free(m->caps);
     edge_refinement_destroy(&m->refinement);

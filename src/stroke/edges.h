@@ -71,7 +71,9 @@ typedef struct edge_mesh {
     box3      *boxes;     /* per piece */
     uint32_t  *planes; /* per face: the plane in which it lies with others, from 1 on; 0: none; NULL: not asked for */
     uint32_t   plane_count;
-    uint8_t   *said; /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
+    uint32_t  *opposite; /* per half-edge 3 · face + corner: the other one of an edge whose two faces agree which way
+                            round  they are, EDGE_NO_FACE: there is none; NULL: not known */
+    uint8_t                *said; /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
     edge_sampling           sampling;
     edge_cap               *caps;
     uint32_t                cap_count;

@@ -382,6 +382,7 @@ static void put_corner(const corner_job *j, uint32_t entry)
         c->y[k][at] = (float)p[k].y;
     }
     c->near_z[at] = j->v->boxes[number].near_z;
+    c->inner_z[at] = j->v->boxes[number].inner_z;
     c->turn[at] = (float)((side > 0) - (side < 0));
 }
 
@@ -398,7 +399,7 @@ static void put_rows(size_t begin, size_t end, void *user)
 
 bool grid_corners_make(grid_corners *out, const stroke_view *v)
 {
-    enum { NUMBERS = 8, ROWS_LEAST = 16 };
+    enum { NUMBERS = 9, ROWS_LEAST = 16 };
     const window_grid *g = &v->grid;
     const size_t       count = g->entry_count + g->sub_entry_count, stride = count + GRID_LANES;
     out->memory = mem_alloc(NUMBERS * stride * sizeof *out->memory);
@@ -410,6 +411,7 @@ bool grid_corners_make(grid_corners *out, const stroke_view *v)
     }
     out->near_z = out->memory + 6 * stride;
     out->turn = out->memory + 7 * stride;
+    out->inner_z = out->memory + 8 * stride;
     for (int k = 0; k < NUMBERS; k++)
         memset(out->memory + (size_t)k * stride + count, 0, GRID_LANES * sizeof *out->memory);
     for (int k = 0; k < GRID_LEVELS; k++)

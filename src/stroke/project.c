@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/threads.h"
+#include "stroke/line_filter.h"
 
 /* Planes that a point can be outside of; in the order of `clip_distance`. */
 enum { PLANE_NEAR, PLANE_LEFT, PLANE_RIGHT, PLANE_BOTTOM, PLANE_TOP, PLANE_COUNT, POLYGON_MAX = 3 + PLANE_COUNT };
@@ -273,6 +274,19 @@ static float slope_of(window_point a, window_point b, window_point c)
     return (float)((fabs(x) + fabs(y)) / fabs(window_side(a, b, c)));
 }
 
+/* Behind which depth a line is behind all of a triangle, whatever rounding has done to both. */
+static float far_of(const stroke_view *v, window_point a, window_point b, window_point c, const window_box *box)
+{
+    const double far_z = a.z > b.z ? (a.z > c.z ? a.z : c.z) : (b.z > c.z ? b.z : c.z), largest = fabs(box->near_z),
+                 tolerance = view_tolerance(v, v->same, largest > fabs(far_z) ? largest : fabs(far_z));
+    return nextafterf((float)(far_z + tolerance + (1 + GAP * v->units) * box->slope), INFINITY);
+}
+
+static bool is_inner(const uint32_t beyond[3])
+{
+    return beyond[0] != NO_TRIANGLE && beyond[1] != NO_TRIANGLE && beyond[2] != NO_TRIANGLE;
+}
+
 static void box_triangles(size_t begin, size_t end, void *user)
 {
     stroke_view *v = user;
@@ -288,6 +302,8 @@ static void box_triangles(size_t begin, size_t end, void *user)
         uint32_t solid = view_solid(v, v->triangles[i].face);
         box->near_z = nextafterf((float)(a.z < b.z ? (a.z < c.z ? a.z : c.z) : (b.z < c.z ? b.z : c.z)), -INFINITY);
         box->slope = fminf(slope_of(a, b, c), most * (v->camera.orthographic ? 1 : fabsf(box->near_z)));
+        box->far_z = solid ? INFINITY : far_of(v, a, b, c, box);
+        box->inner_z = is_inner(v->beyond[i]) ? box->far_z : INFINITY;
         if (solid && v->around[solid - 1]) /* counts wherever it lies: the eye may be in what it encloses */
             box->near_z = -INFINITY;
     }
@@ -402,7 +418,7 @@ static lmn_status fill_view(stroke_view *v, lmn_progress_fn progress, void *user
         }
     }
     v->boxes = status == LMN_OK ? mem_alloc(v->triangle_count * sizeof *v->boxes) : NULL;
-    if (status == LMN_OK && !v->boxes)
+    if (status == LMN_OK && (!v->boxes || !inner_find(v)))
         status = error_memory(error);
     if (status != LMN_OK)
         return status;
@@ -445,6 +461,7 @@ void stroke_view_destroy(stroke_view **view)
     mem_free(v->around);
     mem_free(v->triangles);
     mem_free(v->boxes);
+    mem_free(v->beyond);
     grid_release(&v->grid);
     mem_free(v);
     *view = NULL;

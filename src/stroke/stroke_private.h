@@ -10,7 +10,8 @@
 #include "stroke/stroke.h"
 #include "stroke/wheels.h"
 
-#define NO_VERTEX UINT32_MAX
+#define NO_VERTEX   UINT32_MAX
+#define NO_TRIANGLE UINT32_MAX
 /* Window coordinates stay within this. */
 #define WINDOW_LIMIT 16777216.0
 /* What two positions may differ by and still be one, fraction of the largest coordinate: a few roundings of single
@@ -52,6 +53,9 @@ typedef struct window_box {
     int32_t low_x, low_y, high_x, high_y;
     float   near_z; /* or a little less */
     float   slope;  /* by how much z changes at most over one unit: positions are rounded to units */
+    float   far_z;  /* what begins here or farther away is behind all of it, by more than what positions are off by;
+                       INFINITY: of a solid */
+    float inner_z;  /* the same of one inside of a surface; INFINITY: of a rim */
 } window_box;
 
 /* A grid of cells. */
@@ -73,6 +77,7 @@ enum { GRID_LEVELS = 10, GRID_SPAN = 16, GRID_LANES = 16 };
 typedef struct grid_corners {
     float *x[3], *y[3], *near_z; /* per entry of the grid, behind them those of the finer ones; GRID_LANES more may be
                                     read; near_z: as boxes have it */
+    float *inner_z;              /* likewise */
     float *turn;                 /* 1, or −1 where they run the other way round; 0: they lie in a line */
     float *memory;
 } grid_corners;
@@ -107,12 +112,14 @@ struct stroke_view {
     window_triangle    *triangles;
     size_t              triangle_count, triangle_capacity;
     window_box         *boxes; /* per triangle */
-    window_grid         grid;
-    uint32_t            face_count, piece_count, vertex_count;
-    uint32_t           *face_pieces; /* per face: of all pieces in the view */
-    uint32_t           *planes;      /* per face: the plane in which it lies with others, from 1 on; NULL: not known */
-    uint32_t *solids; /* per piece: 1 + the item of which it is, where that is a solid; NULL: there are none */
-    bool     *around; /* per item: a solid that reaches up to the eye, which may be in it */
+    uint32_t (*beyond)[3];     /* likewise: the triangle beyond the edge that begins at each corner, where the surface
+                                  goes on and is seen from the same side; NO_TRIANGLE: none */
+    window_grid grid;
+    uint32_t    face_count, piece_count, vertex_count;
+    uint32_t   *face_pieces; /* per face: of all pieces in the view */
+    uint32_t   *planes;      /* per face: the plane in which it lies with others, from 1 on; NULL: not known */
+    uint32_t   *solids;      /* per piece: 1 + the item of which it is, where that is a solid; NULL: there are none */
+    bool       *around;      /* per item: a solid that reaches up to the eye, which may be in it */
 };
 
 /* A straight line whose visibility is asked for. */
@@ -169,6 +176,10 @@ static inline uint32_t view_solid(const stroke_view *v, uint32_t face)
 {
     return v->solids ? v->solids[v->face_pieces[face]] : 0;
 }
+
+/* --- inner.c --- */
+/* Finds what lies beyond the edges of triangles. False when memory is gone. */
+bool inner_find(stroke_view *v);
 
 /* --- grid.c --- */
 lmn_status grid_build(window_grid *out, const stroke_view *v, lmn_error *error);

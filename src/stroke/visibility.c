@@ -15,12 +15,11 @@
 
 #include "base/memory.h"
 #include "base/threads.h"
+#include "stroke/line_filter.h"
 #include "stroke/solid_cover.h"
 
 /* Stretches shorter than this are not told apart, pixels. */
 #define CRUMB 0.02
-/* Gaps between bodies are no wider than twice this where it is roundings that make them, pixels. */
-#define GAP 0.01
 enum { BLOCK = 512, RUN_MOST = 256 };
 /* Corners of the grid's entries are put together where it has no more of them for each segment. */
 enum { ENTRIES_A_SEGMENT = 48 };
@@ -56,16 +55,6 @@ typedef struct position_slot {
     uint32_t stamp; /* the segment that it was filled for */
 } position_slot;
 
-/* What triangles of cells are held against first: window coordinates, which single precision has exactly; only what is
- * worked out with them is rounded. */
-typedef struct line_test {
-    float x, y, along_x, along_y;
-    float margin; /* who is farther than that to one side of the line is to that side: not along it, nor by rounding */
-    float apart;  /* the same of the line of an edge, times its length */
-    float low_x, low_y, high_x, high_y;
-    float far_z; /* of the segment, or a little more: what begins behind is no cover */
-} line_test;
-
 /* One thread's work on one segment. */
 typedef struct worker {
     const stroke_view    *v;
@@ -82,6 +71,7 @@ typedef struct worker {
     size_t                table_size;
     uint32_t             *filled; /* slots of this segment */
     size_t                filled_count, filled_capacity;
+    int64_t               begins; /* inner triangles in front that the segment begins behind */
     position_step        *steps;
     size_t                step_capacity;
     solid_covers          covers; /* of faces of solids */
@@ -327,6 +317,31 @@ static void cover_by(worker *w, uint32_t number, const crossing_pair *c)
         cover_nearer(w, from, to, before, after, same);
 }
 
+/* Does the triangle end in front of the segment? Then what it covers of it goes on in those beyond its edges, and what
+ * counts is whether the segment begins behind it, and where it is at a rim. */
+static inline bool is_in_front(const worker *w, uint32_t number)
+{
+    return w->v->boxes[number].far_z < w->line.front_z;
+}
+
+/* Where the segment crosses an edge of a triangle to what lies beyond it: at a rim, what is in front begins or ends;
+ * and what goes on behind a triangle in front, or came from there, begins or ends for itself. */
+static inline void cross_rim(worker *w, bool front, uint32_t beyond, double at, int32_t step)
+{
+    if (at > 0 && at < 1 && (front ? beyond == NO_TRIANGLE : beyond != NO_TRIANGLE && is_in_front(w, beyond)))
+        put_step(w, at, front ? step : -step);
+}
+
+/* Two edges that the segment crosses, which begin at the corner that lies alone and at the one before. */
+static void cross_rims(worker *w, bool front, uint32_t number, const flat_triangle *t, int alone, const double at[2])
+{
+    const uint32_t *beyond = w->v->beyond[number];
+    const double    area = (t->x[1] - t->x[0]) * (t->y[2] - t->y[0]) - (t->y[1] - t->y[0]) * (t->x[2] - t->x[0]);
+    const int32_t   step = (area > 0) == (t->sides[alone] < 0) ? -1 : 1; /* it leaves by the first edge, or comes */
+    cross_rim(w, front, beyond[alone], at[0], step);
+    cross_rim(w, front, beyond[alone == 0 ? 2 : alone - 1], at[1], -step);
+}
+
 /* `corner`: of the triangle in the grid's corners, which lie together; what lies elsewhere is read only of triangles
  * that the segment crosses, or runs along. Which corner lies alone and which crossing comes first has no pattern that
  * could be foretold, so that numbers say it and not branches. */
@@ -342,13 +357,19 @@ static void compare(worker *w, uint32_t number, size_t corner)
     put_corner(w, &flat, 2, number, corner);
     unsigned low = (unsigned)(sides[0] < 0) | (unsigned)(sides[1] < 0) << 1 | (unsigned)(sides[2] < 0) << 2;
     if (low == 0 || low == 7) {
-        if (!w->grazed && runs_along(w, &flat))
+        if (!w->grazed && !(w->v->boxes[number].inner_z < w->line.front_z) && runs_along(w, &flat))
             w->grazed = !is_own(w, t->face) && !is_in_plane(w, t->face);
         return;
     }
     const int    alone = alone_of[low], next = after[alone], last = before[alone];
     const double t0 = cross_edge(w, &flat, alone, next), t1 = cross_edge(w, &flat, last, alone);
     const double first = t1 < t0 ? t1 : t0, second = t1 < t0 ? t0 : t1;
+    const bool   front = is_in_front(w, number);
+    cross_rims(w, front, number, &flat, alone, (const double[2]){t0, t1});
+    if (front) {
+        w->begins += (first <= 0) & (second > 0);
+        return;
+    }
     if (!((first < 1) & (second > 0) & (first < second)) || is_in_plane(w, t->face))
         return;
     w->pairs++;
@@ -361,86 +382,6 @@ static void compare(worker *w, uint32_t number, size_t corner)
     cover_by(w, number, &c);
 }
 
-/* Which of the entries of a group may meet the segment, or run along it, 1 or 0 each: their boxes meet its box, they
- * begin in front of its end, not all their corners are clearly to one side of its line, nor both its ends clearly to
- * the outer side of one of their edges. Single precision, with what it may be off by to spare, and without a branch, as
- * which of them do cannot be foretold: compilers make it one for many entries at a time. */
-static inline __attribute__((always_inline)) void test_group(const grid_corners *c, size_t corner,
-                                                             const line_test *line, int32_t meets[GRID_LANES])
-{
-    const float *x0 = c->x[0] + corner, *x1 = c->x[1] + corner, *x2 = c->x[2] + corner, *y0 = c->y[0] + corner,
-                *y1 = c->y[1] + corner, *y2 = c->y[2] + corner, *z = c->near_z + corner, *turn = c->turn + corner;
-    const line_test t = *line;
-    for (int i = 0; i < GRID_LANES; i++) {
-        float px0 = x0[i] - t.x, px1 = x1[i] - t.x, px2 = x2[i] - t.x, py0 = y0[i] - t.y, py1 = y1[i] - t.y,
-              py2 = y2[i] - t.y;
-        float s0 = t.along_x * py0 - t.along_y * px0, s1 = t.along_x * py1 - t.along_y * px1,
-              s2 = t.along_x * py2 - t.along_y * px2;
-        float ex0 = x1[i] - x0[i], ey0 = y1[i] - y0[i], ex1 = x2[i] - x1[i], ey1 = y2[i] - y1[i], ex2 = x0[i] - x2[i],
-              ey2 = y0[i] - y2[i];
-        /* How far inside of each edge the segment's first end is, and its last one. */
-        float a0 = (ey0 * px0 - ex0 * py0) * turn[i], a1 = (ey1 * px1 - ex1 * py1) * turn[i],
-              a2 = (ey2 * px2 - ex2 * py2) * turn[i];
-        float b0 = a0 - (s1 - s0) * turn[i], b1 = a1 - (s2 - s1) * turn[i], b2 = a2 - (s0 - s2) * turn[i];
-        float m0 = 2 * t.margin + t.apart * (fabsf(ex0) + fabsf(ey0)),
-              m1 = 2 * t.margin + t.apart * (fabsf(ex1) + fabsf(ey1)),
-              m2 = 2 * t.margin + t.apart * (fabsf(ex2) + fabsf(ey2));
-        meets[i] = ((x0[i] <= t.high_x) | (x1[i] <= t.high_x) | (x2[i] <= t.high_x)) &
-                   ((x0[i] >= t.low_x) | (x1[i] >= t.low_x) | (x2[i] >= t.low_x)) &
-                   ((y0[i] <= t.high_y) | (y1[i] <= t.high_y) | (y2[i] <= t.high_y)) &
-                   ((y0[i] >= t.low_y) | (y1[i] >= t.low_y) | (y2[i] >= t.low_y)) & (z[i] <= t.far_z) &
-                   ((s0 <= t.margin) | (s1 <= t.margin) | (s2 <= t.margin)) &
-                   ((s0 >= -t.margin) | (s1 >= -t.margin) | (s2 >= -t.margin)) & ((a0 >= -m0) | (b0 >= -m0)) &
-                   ((a1 >= -m1) | (b1 >= -m1)) & ((a2 >= -m2) | (b2 >= -m2));
-    }
-}
-
-static inline __attribute__((always_inline)) size_t find_with(const worker *w, size_t corner, size_t count,
-                                                              uint16_t *out)
-{
-    size_t found = 0;
-    for (size_t begin = 0; begin < count; begin += GRID_LANES) {
-        int32_t meets[GRID_LANES];
-        size_t  lanes = count - begin < GRID_LANES ? count - begin : GRID_LANES;
-        test_group(w->corners, corner + begin, &w->line, meets);
-        for (size_t i = 0; i < lanes; i++) {
-            out[found] = (uint16_t)(begin + i);
-            found += (size_t)meets[i];
-        }
-    }
-    return found;
-}
-
-/* The entries of a run that may meet the segment, by their places in it. */
-static size_t find_meeting(const worker *w, size_t corner, size_t count, uint16_t *out)
-{
-    return find_with(w, corner, count, out);
-}
-
-#ifdef __x86_64__
-/* Where the processor takes twice as many numbers at a time. */
-static __attribute__((target("avx2"))) size_t find_meeting_wide(const worker *w, size_t corner, size_t count,
-                                                                uint16_t *out)
-{
-    return find_with(w, corner, count, out);
-}
-
-static bool is_wide(void)
-{
-    return __builtin_cpu_supports("avx2");
-}
-#else
-static size_t find_meeting_wide(const worker *w, size_t corner, size_t count, uint16_t *out)
-{
-    return find_with(w, corner, count, out);
-}
-
-static bool is_wide(void)
-{
-    return false;
-}
-#endif
-
 /* The same by boxes alone, where corners do not lie together. */
 static size_t find_boxes(const worker *w, const uint32_t *entries, size_t count, uint16_t *out)
 {
@@ -450,8 +391,10 @@ static size_t find_boxes(const worker *w, const uint32_t *entries, size_t count,
     for (size_t i = 0; i < count; i++) {
         const window_box *box = &boxes[entries[i]];
         out[found] = (uint16_t)i;
+        const bool begins = ((float)box->low_x <= t.x) & ((float)box->high_x >= t.x) & ((float)box->low_y <= t.y) &
+                            ((float)box->high_y >= t.y);
         found += ((float)box->low_x <= t.high_x) & ((float)box->high_x >= t.low_x) & ((float)box->low_y <= t.high_y) &
-                 ((float)box->high_y >= t.low_y) & (box->near_z <= t.far_z);
+                 ((float)box->high_y >= t.low_y) & (box->near_z <= t.far_z) & ((box->inner_z >= t.front_z) | begins);
     }
     return found;
 }
@@ -493,8 +436,7 @@ static void visit_run(worker *w, const uint32_t *entries, size_t corner, size_t 
     for (size_t begin = 0; begin < count; begin += RUN_MOST) {
         size_t length = count - begin < RUN_MOST ? count - begin : RUN_MOST;
         size_t found = !w->corners ? find_boxes(w, entries + begin, length, offsets)
-                       : w->wide   ? find_meeting_wide(w, corner + begin, length, offsets)
-                                   : find_meeting(w, corner + begin, length, offsets);
+                                   : line_filter(w->corners, &w->line, w->wide, corner + begin, length, offsets);
         if (w->wheels[0] || w->wheels[1])
             found = leave_wheels(w, entries + begin, offsets, found);
         if (!alone)
@@ -647,7 +589,7 @@ static bool put_spans(worker *w, span_block *block)
     const window_segment *s = w->segment;
     double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y, length = sqrt(x * x + y * y) / w->v->units,
            crumb = CRUMB / fmax(length, CRUMB), at = 0;
-    int64_t count = 0;
+    int64_t count = w->begins;
     if (!gather_steps(w, &steps))
         return false;
     if (crumb > 0.4)
@@ -683,23 +625,18 @@ static void take_faces(worker *w)
     }
 }
 
-/* Differences of coordinates are below 2^25, so that each of a side's four roundings is of less than twice the
- * differences of the segment's ends. */
-static line_test test_of(const window_segment *s, double units)
+static bool is_on_page(const stroke_view *v, window_point p)
 {
-    bool   right = s->a.x < s->b.x, down = s->a.y < s->b.y;
-    double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
-    return (line_test){(float)s->a.x,
-                       (float)s->a.y,
-                       (float)x,
-                       (float)y,
-                       (float)(1.001 * GAP * units * sqrt(x * x + y * y) + 16 * (fabs(x) + fabs(y))),
-                       (float)(4 * GAP * units + 16),
-                       (float)(right ? s->a.x : s->b.x),
-                       (float)(down ? s->a.y : s->b.y),
-                       (float)(right ? s->b.x : s->a.x),
-                       (float)(down ? s->b.y : s->a.y),
-                       nextafterf((float)(s->a.z > s->b.z ? s->a.z : s->b.z), INFINITY)};
+    return fabs((double)p.x) <= 0.5 * v->camera.width * v->units &&
+           fabs((double)p.y) <= 0.5 * v->camera.height * v->units;
+}
+
+/* Is all that lies in front of the segment known by its rims? Only the page is searched, and what is in front has to
+ * count everywhere. */
+static bool counts_rims(const stroke_view *v, const window_segment *s)
+{
+    return s->ignored_count == 0 && s->beside_count == 0 && !(s->lift > 0) && is_on_page(v, s->a) &&
+           is_on_page(v, s->b);
 }
 
 static void find_spans(worker *w, span_block *block, const window_segment *s)
@@ -710,7 +647,10 @@ static void find_spans(worker *w, span_block *block, const window_segment *s)
     w->grazed = false;
     w->stamp++;
     w->filled_count = 0;
-    w->line = test_of(s, w->v->units);
+    w->begins = 0;
+    w->line = line_test_of(s, w->v->units);
+    if (!counts_rims(w->v, s))
+        w->line.front_z = -INFINITY;
     w->covers.count = 0;
     take_faces(w);
     const bool is_point = s->a.x == s->b.x && s->a.y == s->b.y;
@@ -810,7 +750,7 @@ static void find_blocks(size_t begin, size_t end, void *user)
     span_job *job = user;
     worker    w = {.v = job->v,
                    .corners = job->corners.memory ? &job->corners : NULL,
-                   .wide = is_wide(),
+                   .wide = line_filter_is_wide(),
                    .stamps = mem_calloc(job->v->triangle_count + 1, sizeof *w.stamps)};
     w.failed = !w.stamps;
     for (size_t b = begin; b < end && !w.failed; b++) {
