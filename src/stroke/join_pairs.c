@@ -42,8 +42,8 @@ typedef struct pairing {
     uint32_t        *partners;
     member          *members;
     pair_node       *nodes;
-    uint32_t        *leaves; /* per end */
-    bool            *gone;   /* per end: it has a partner, or can have none */
+    uint32_t        *leaves, *roots; /* per end */
+    bool            *gone;           /* per end: it has a partner, or can have none */
     waiting_end     *waiting;
     size_t           count, member_count;
     uint32_t         node_count;
@@ -122,16 +122,18 @@ static void part_members(member *m, ptrdiff_t count, int axis)
 /* Children lie behind their parents, so that nodes are made in one go. */
 static void make_tree(pairing *p, uint32_t begin, uint32_t end)
 {
-    uint32_t at = p->node_count;
+    const uint32_t root = p->node_count;
     p->nodes[p->node_count++] = (pair_node){.begin = begin, .end = end, .parent = NO_NODE};
-    for (; at < p->node_count; at++) {
+    for (uint32_t at = root; at < p->node_count; at++) {
         pair_node *n = &p->nodes[at];
         bound_node(p, n);
         n->free = n->end - n->begin;
         n->left = NO_NODE;
         if (n->free <= LEAF) {
-            for (uint32_t i = n->begin; i < n->end; i++)
+            for (uint32_t i = n->begin; i < n->end; i++) {
                 p->leaves[p->members[i].end] = at;
+                p->roots[p->members[i].end] = root;
+            }
             continue;
         }
         uint32_t middle = n->begin + n->free / 2;
@@ -247,20 +249,6 @@ static void search_leaf(end_search *s, const pair_node *n)
     }
 }
 
-static void search_node(end_search *s, uint32_t number);
-
-/* What lies beside a leaf first, then all the rest: the cheapest is mostly near, and what is far is seen to be with
- * large boxes. */
-static void search_around(end_search *s, uint32_t leaf)
-{
-    search_node(s, leaf);
-    for (uint32_t at = leaf, up; (up = s->p->nodes[at].parent) != NO_NODE; at = up) {
-        const uint32_t left = s->p->nodes[up].left, beside = at == left ? left + 1 : left;
-        if (is_worth(s, &s->p->nodes[beside]))
-            search_node(s, beside);
-    }
-}
-
 /* Which half of a node is nearer: the end's own, mostly. */
 static uint32_t nearer_half(const end_search *s, const pair_node *n)
 {
@@ -295,7 +283,7 @@ static end_search search_for(pairing *p, size_t depth)
                             .anywhere = isnan(place->angle)};
     s.opposite = s.anywhere ? 0 : place->angle > 0 ? place->angle - HALF_TURN : place->angle + HALF_TURN;
     p->rules->others(p->rules->user, w->end, &s);
-    search_around(&s, p->leaves[w->end]);
+    search_node(&s, p->roots[w->end]);
     return s;
 }
 
@@ -336,9 +324,10 @@ bool ends_pair(uint32_t *partners, const end_place *places, size_t count, const 
                  .members = mem_alloc((count + 1) * sizeof *p.members),
                  .nodes = mem_alloc((2 * count + 1) * sizeof *p.nodes),
                  .leaves = mem_alloc((count + 1) * sizeof *p.leaves),
+                 .roots = mem_alloc((count + 1) * sizeof *p.roots),
                  .gone = mem_calloc(count + 1, sizeof *p.gone),
                  .waiting = mem_alloc((count + 1) * sizeof *p.waiting)};
-    bool    good = p.members && p.nodes && p.leaves && p.gone && p.waiting && make_trees(&p);
+    bool    good = p.members && p.nodes && p.leaves && p.roots && p.gone && p.waiting && make_trees(&p);
     for (uint32_t i = 0; i < count && good; i++) {
         partners[i] = END_OF_NONE;
         p.gone[i] = places[i].group == END_OF_NONE;
@@ -350,6 +339,7 @@ bool ends_pair(uint32_t *partners, const end_place *places, size_t count, const 
     mem_free(p.members);
     mem_free(p.nodes);
     mem_free(p.leaves);
+    mem_free(p.roots);
     mem_free(p.gone);
     mem_free(p.waiting);
     return good;
