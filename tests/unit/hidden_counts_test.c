@@ -3,7 +3,7 @@
  * through each other, at random. */
 #include "stroke_shapes.h"
 
-#include "stroke/stroke_private.h"
+#include "stroke/line_filter.h"
 
 enum { PAGE = 400, FREE_LINES = 400 };
 
@@ -236,12 +236,40 @@ static void the_inside_of_surfaces_is_passed_by(void **state)
     close_scene(&h);
 }
 
+/* What the filter finds depends on no processor. */
+static void wide_registers_find_the_same(void **state)
+{
+    (void)state;
+    enum { RUN = 200 };
+    hidden_scene h;
+    grid_corners corners;
+    size_t       found = 0;
+    open_scene(&h, 1, true);
+    assert_true(grid_corners_make(&corners, h.view));
+    const size_t count = h.view->grid.entry_count + h.view->grid.sub_entry_count;
+    for (size_t i = 0; i < h.free_count && line_filter_is_wide(); i++) {
+        const line_test test = line_test_of(&h.free[i], h.view->units);
+        for (size_t begin = 0; begin < count; begin += RUN) {
+            uint16_t     plain[RUN], wide[RUN];
+            const size_t run = count - begin < RUN ? count - begin : RUN,
+                         n = line_filter(&corners, &test, false, begin, run, plain);
+            assert_int_equal(line_filter(&corners, &test, true, begin, run, wide), n);
+            assert_memory_equal(plain, wide, n * sizeof *plain);
+            found += n;
+        }
+    }
+    assert_true(found > 0 || !line_filter_is_wide());
+    grid_corners_release(&corners);
+    close_scene(&h);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_ways_count_the_same),
         cmocka_unit_test(rays_count_the_same),
         cmocka_unit_test(the_inside_of_surfaces_is_passed_by),
+        cmocka_unit_test(wide_registers_find_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
