@@ -694,13 +694,21 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_optio
 {
     view_lines lines;
     visibility seen;
+    uint8_t   *hidden = NULL;
     memset(out, 0, sizeof *out);
-    lmn_status status = lines_collect(&lines, v, options, parts, progress, user, error);
+    lmn_status status = occlusion_find(&hidden, v, options, error);
+    if (status == LMN_OK)
+        status = lines_collect(&lines, v, options, parts, hidden, progress, user, error);
+    mem_free(hidden);
     if (status != LMN_OK)
         return status;
+    const size_t asked = lines.count;
     status = outlines_see(&seen, v, &lines, progress, user, error);
+    if (status == LMN_OK && !occlusion_drop(&lines, &seen, v, options))
+        status = error_memory(error);
     if (status == LMN_OK)
         status = chains_make(out, v, &lines, &seen, options, error);
+    out->lines = asked;
     if (status == LMN_OK)
         status = strokes_join(out, v, options, error);
     if (status == LMN_OK)

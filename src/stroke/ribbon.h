@@ -68,6 +68,9 @@ typedef struct ribbon_set {
     size_t ribbon_count, point_count, dash_count;
 } ribbon_set;
 
+/* Pieces of surface that are smaller on the page, and of which nothing is seen, are left out in this style: for
+ * stroke_options.island. */
+float ribbons_island(const stroke_style *style);
 /* Draws strokes in a style: what is hidden comes first, so that what is visible lies on it. The same seed, the same
  * ribbons; what is random belongs to a chain's id and position along it, so that it stays from frame to frame. Errors:
  * LMN_MEMORY. */

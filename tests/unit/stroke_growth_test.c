@@ -153,7 +153,7 @@ static void cross_spikes(uint32_t count, double width, uint32_t counted, size_t 
     assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
     assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, &error), LMN_OK);
     assert_int_equal(stroke_scene_create(&scene, &at_rest, NULL, 0.5, NULL, NULL, &error), LMN_OK);
-    assert_int_equal(crossings_find(&list, &scene, NULL, NULL, NULL, &error), LMN_OK);
+    assert_int_equal(crossings_find(&list, &scene, NULL, NULL, NULL, NULL, &error), LMN_OK);
     *found = 0;
     *sum = 0;
     *compared = list.compared;
