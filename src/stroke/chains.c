@@ -699,12 +699,13 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_optio
     lmn_status status = occlusion_find(&hidden, v, options, error);
     if (status == LMN_OK)
         status = lines_collect(&lines, v, options, parts, hidden, progress, user, error);
+    const bool many = hidden != NULL;
     mem_free(hidden);
     if (status != LMN_OK)
         return status;
     const size_t asked = lines.count;
     status = outlines_see(&seen, v, &lines, progress, user, error);
-    if (status == LMN_OK && !occlusion_drop(&lines, &seen, v, options))
+    if (status == LMN_OK && many && !occlusion_drop(&lines, &seen, v, options))
         status = error_memory(error);
     if (status == LMN_OK)
         status = chains_make(out, v, &lines, &seen, options, error);

@@ -149,6 +149,56 @@ static bool choose_pieces(occlusion *o, double least)
     return o->seen != NULL;
 }
 
+/* --- pieces that hang together -------------------------------------------------------------------------- */
+
+static uint32_t first_of(uint32_t *sets, uint32_t i)
+{
+    while (sets[i] != i)
+        i = sets[i] = sets[sets[i]];
+    return i;
+}
+
+/* Unites the pieces of a mesh that share vertices. `pieces`: per vertex, one that it is of. */
+static void unite_at_vertices(const edge_mesh *m, uint32_t *sets, uint32_t *pieces)
+{
+    memset(pieces, 0xFF, (size_t)m->vertex_count * sizeof *pieces);
+    for (uint32_t k = 0; k < m->piece_count; k++)
+        sets[k] = k;
+    for (uint32_t f = 0; f < m->face_count; f++)
+        for (int k = 0; k < 3; k++) {
+            uint32_t *piece = &pieces[m->faces[f][k]];
+            if (*piece == UINT32_MAX)
+                *piece = m->pieces[f];
+            else if (*piece != m->pieces[f])
+                sets[first_of(sets, *piece)] = first_of(sets, m->pieces[f]);
+        }
+}
+
+/* Lines go on from one piece to another where they share a vertex: all of these are kept that hang together with one
+ * that is. `kept`: a flag per piece. False: out of memory. */
+static bool keep_whole(uint8_t *kept, const stroke_view *v)
+{
+    bool good = true;
+    for (size_t i = 0; i < v->scene->item_count && good; i++) {
+        const edge_mesh *m = &v->scene->meshes[v->scene->items[i].mesh];
+        uint8_t         *own = kept + v->items[i].first_piece;
+        if (m->piece_count < 2)
+            continue;
+        uint32_t *sets = mem_alloc(m->piece_count * sizeof *sets),
+                 *pieces = mem_alloc(((size_t)m->vertex_count + 1) * sizeof *pieces);
+        good = sets && pieces;
+        if (good)
+            unite_at_vertices(m, sets, pieces);
+        for (uint32_t k = 0; k < m->piece_count && good; k++)
+            own[first_of(sets, k)] |= own[k];
+        for (uint32_t k = 0; k < m->piece_count && good; k++)
+            own[k] = own[first_of(sets, k)];
+        mem_free(sets);
+        mem_free(pieces);
+    }
+    return good;
+}
+
 /* --- tiles ---------------------------------------------------------------------------------------------- */
 
 /* Numbers in the order of what single precision says. */
@@ -504,10 +554,18 @@ static double least_of(const stroke_options *options)
 
 static bool take_hidden(uint8_t **out, const occlusion *o)
 {
-    *out = mem_alloc((size_t)o->v->piece_count + 1);
-    for (size_t i = 0; i < o->v->piece_count && *out; i++)
-        (*out)[i] = !atomic_load_explicit(&o->seen[i], memory_order_relaxed);
-    return *out != NULL;
+    const uint32_t count = o->v->piece_count;
+    *out = mem_alloc((size_t)count + 1);
+    for (uint32_t i = 0; i < count && *out; i++)
+        (*out)[i] = atomic_load_explicit(&o->seen[i], memory_order_relaxed);
+    const bool good = *out && keep_whole(*out, o->v);
+    for (uint32_t i = 0; i < count && good; i++)
+        (*out)[i] = !(*out)[i];
+    if (good)
+        return true;
+    mem_free(*out);
+    *out = NULL;
+    return false;
 }
 
 lmn_status occlusion_find(uint8_t **hidden, const stroke_view *v, const stroke_options *options, lmn_error *error)
@@ -555,14 +613,13 @@ static bool is_on_seen(const uint8_t *seen, const stroke_view *v, const window_s
 bool occlusion_drop(view_lines *lines, visibility *by, const stroke_view *v, const stroke_options *options)
 {
     uint32_t kept = 0, spans = 0;
-    if (!(least_of(options) > 0))
-        return true;
     uint8_t *seen = find_small(v, least_of(options));
     for (size_t i = 0; i < v->piece_count && seen; i++) /* what is large stays */
         seen[i] = !seen[i];
     if (seen)
         mark_seen(seen, v, lines, by);
-    for (size_t i = 0; i < lines->count && seen; i++) {
+    const bool good = seen && keep_whole(seen, v);
+    for (size_t i = 0; i < lines->count && good; i++) {
         const uint32_t first = by->starts[i], end = by->starts[i + 1];
         if (!is_on_seen(seen, v, &lines->segments[i]))
             continue;
@@ -572,9 +629,9 @@ bool occlusion_drop(view_lines *lines, visibility *by, const stroke_view *v, con
         lines->lines[kept] = lines->lines[i];
         lines->segments[kept++] = lines->segments[i];
     }
-    if (seen)
+    if (good)
         by->starts[kept] = spans;
-    lines->count = seen ? kept : lines->count;
+    lines->count = good ? kept : lines->count;
     mem_free(seen);
-    return seen != NULL;
+    return good;
 }

@@ -300,7 +300,7 @@ uint64_t line_id(uint64_t a, uint64_t b); /* numbers that differ for different l
 
 /* --- occlusion.c --- */
 /* Flags pieces of the view that lie wholly behind others, beyond doubt, and are smaller than stroke_options.island; any
- * size where nothing hidden is wanted. *hidden: NULL where too few pieces are there to ask; free it with mem_free. */
+ * size where nothing hidden is wanted. *hidden: NULL where there are too few such pieces to ask; free it with mem_free. */
 lmn_status occlusion_find(uint8_t **hidden, const stroke_view *v, const stroke_options *options, lmn_error *error);
 /* Drops the lines that are only on such pieces: all of those on which no line is seen. False when memory is gone. */
 bool occlusion_drop(view_lines *lines, visibility *by, const stroke_view *v, const stroke_options *options);
