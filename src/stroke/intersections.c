@@ -604,19 +604,32 @@ static lmn_status compare_faces(crossing_search *s, lmn_error *error)
     return going && s->hubs ? hubs_pairs(s->hubs, &faces, cross_faces, s, &going, error) : LMN_OK;
 }
 
+/* Of pieces that are single faces it takes as long to say where they overlap. */
+static size_t faces_of(const stroke_scene *scene)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < scene->item_count; i++)
+        count += scene->meshes[scene->items[i].mesh].face_count;
+    return count;
+}
+
 static lmn_status search(crossing_search *s, lmn_error *error)
 {
     hierarchy           tree;
     lmn_status          status = number_pieces(s, error);
     const hierarchy_kin kin = {{s->bodies}};
-    if (status == LMN_OK)
-        status = hierarchy_build(&tree, s->piece_boxes, kin, s->piece_count, error);
     if (status != LMN_OK)
         return status;
-    hierarchy_pairs(&tree, s->piece_boxes, kin, widen_region, s);
-    if (!s->crowded && !box3_is_empty(s->region))
-        hierarchy_pairs(&tree, s->piece_boxes, kin, mark_region, s);
-    hierarchy_release(&tree);
+    s->crowded = s->hidden && 2 * (size_t)s->piece_count > faces_of(s->scene);
+    if (!s->crowded) {
+        status = hierarchy_build(&tree, s->piece_boxes, kin, s->piece_count, error);
+        if (status != LMN_OK)
+            return status;
+        hierarchy_pairs(&tree, s->piece_boxes, kin, widen_region, s);
+        if (!s->crowded && !box3_is_empty(s->region))
+            hierarchy_pairs(&tree, s->piece_boxes, kin, mark_region, s);
+        hierarchy_release(&tree);
+    }
     if (!s->crowded && box3_is_empty(s->region))
         return LMN_OK;
     status = gather_faces(s, error);

@@ -318,6 +318,7 @@ void lines_release(view_lines *l)
     mem_free(l->segments);
     mem_free(l->ignored);
     mem_free(l->beside);
+    mem_free(l->bare);
     mem_free(l->lifts);
     memset(l, 0, sizeof *l);
 }

@@ -175,13 +175,15 @@ static void unite_at_vertices(const edge_mesh *m, uint32_t *sets, uint32_t *piec
 }
 
 /* Lines go on from one piece to another where they share a vertex: all of these are kept that hang together with one
- * that is. `kept`: a flag per piece. False: out of memory. */
-static bool keep_whole(uint8_t *kept, const stroke_view *v)
+ * that is. `kept`: a flag per piece; `lengths` (may be NULL): of the lines of each, and then of all that hang together.
+ * False: out of memory. */
+static bool keep_whole(uint8_t *kept, float *lengths, const stroke_view *v)
 {
     bool good = true;
     for (size_t i = 0; i < v->scene->item_count && good; i++) {
         const edge_mesh *m = &v->scene->meshes[v->scene->items[i].mesh];
         uint8_t         *own = kept + v->items[i].first_piece;
+        float           *all = lengths ? lengths + v->items[i].first_piece : NULL;
         if (m->piece_count < 2)
             continue;
         uint32_t *sets = mem_alloc(m->piece_count * sizeof *sets),
@@ -189,10 +191,17 @@ static bool keep_whole(uint8_t *kept, const stroke_view *v)
         good = sets && pieces;
         if (good)
             unite_at_vertices(m, sets, pieces);
-        for (uint32_t k = 0; k < m->piece_count && good; k++)
-            own[first_of(sets, k)] |= own[k];
-        for (uint32_t k = 0; k < m->piece_count && good; k++)
+        for (uint32_t k = 0; k < m->piece_count && good; k++) {
+            const uint32_t first = first_of(sets, k);
+            own[first] |= own[k];
+            if (all && first != k)
+                all[first] += all[k];
+        }
+        for (uint32_t k = 0; k < m->piece_count && good; k++) {
             own[k] = own[first_of(sets, k)];
+            if (all)
+                all[k] = all[first_of(sets, k)];
+        }
         mem_free(sets);
         mem_free(pieces);
     }
@@ -477,7 +486,7 @@ static bool is_row_behind(const tile *t, const flat_triangle *f, int row, cell_r
     return true;
 }
 
-/* Is all of some rows of blocks so deep? */
+/* Is all of some blocks so deep? */
 static bool are_blocks_behind(tile *t, int row, cell_range cells, float least)
 {
     for (int b = cells.first / BLOCK; b * BLOCK < cells.end; b++)
@@ -486,18 +495,32 @@ static bool are_blocks_behind(tile *t, int row, cell_range cells, float least)
     return true;
 }
 
-/* Is it hidden wherever it lies in the tile, as far as that is certain? */
-static bool is_behind(tile *t, const flat_triangle *f)
+static cell_range cells_around(double low, double high, double side)
+{
+    return (cell_range){clamp_cell(floor(low / side)), clamp_cell(floor(high / side) + 1)};
+}
+
+/* A first look, by the box alone: most of what is hidden lies deep behind. */
+static bool is_box_behind(tile *t, const window_box *b)
 {
     const double     side = t->o->cell, around = BESIDE * t->o->v->units;
-    const float      least = nextafterf((float)f->near_z, -INFINITY);
-    const cell_range rows = {clamp_cell(floor((f->low_y - around) / side)),
-                             clamp_cell(floor((f->high_y + around) / side) + 1)};
-    const cell_range columns = {clamp_cell(floor((fmin(f->x[0], fmin(f->x[1], f->x[2])) - around) / side)),
-                                clamp_cell(floor((fmax(f->x[0], fmax(f->x[1], f->x[2])) + around) / side) + 1)};
+    const cell_range rows = cells_around(b->low_y - around - t->y, b->high_y + around - t->y, side),
+                     columns = cells_around(b->low_x - around - t->x, b->high_x + around - t->x, side);
+    for (int row = rows.first / BLOCK; row * BLOCK < rows.end; row++)
+        if (!are_blocks_behind(t, row, columns, b->near_z))
+            return false;
+    return true;
+}
+
+/* Is it hidden wherever it lies in the tile, as far as that is certain? */
+static bool is_behind(tile *t, const flat_triangle *f, const window_box *box)
+{
+    const double     side = t->o->cell, around = BESIDE * t->o->v->units;
+    const cell_range rows = cells_around(f->low_y - around, f->high_y + around, side),
+                     columns = cells_around(box->low_x - around - t->x, box->high_x + around - t->x, side);
     for (int row = rows.first; row < rows.end;) {
         const int next = (row / BLOCK + 1) * BLOCK, last = next < rows.end ? next : rows.end;
-        bool      deep = are_blocks_behind(t, row / BLOCK, columns, least);
+        bool      deep = are_blocks_behind(t, row / BLOCK, columns, box->near_z);
         for (; row < last && !deep; row++)
             if (!is_row_behind(t, f, row, cells_touched(f, row * side, side, around)))
                 return false;
@@ -516,8 +539,10 @@ static void look_through(tile *t, const uint32_t *entries, size_t count)
         t->blocks[i] = INFINITY;
     memset(t->stale, 0, sizeof t->stale);
     for (size_t i = 0; i < count; i++) {
+        if (is_box_behind(t, &v->boxes[entries[i]]))
+            continue;
         const flat_triangle f = flatten(t, entries[i]);
-        if (is_behind(t, &f))
+        if (is_behind(t, &f, &v->boxes[entries[i]]))
             continue;
         atomic_store_explicit(&t->o->seen[v->face_pieces[v->triangles[entries[i]].face]], 1, memory_order_relaxed);
         if (isfinite(f.margin))
@@ -558,7 +583,7 @@ static bool take_hidden(uint8_t **out, const occlusion *o)
     *out = mem_alloc((size_t)count + 1);
     for (uint32_t i = 0; i < count && *out; i++)
         (*out)[i] = atomic_load_explicit(&o->seen[i], memory_order_relaxed);
-    const bool good = *out && keep_whole(*out, o->v);
+    const bool good = *out && keep_whole(*out, NULL, o->v);
     for (uint32_t i = 0; i < count && good; i++)
         (*out)[i] = !(*out)[i];
     if (good)
@@ -589,16 +614,25 @@ lmn_status occlusion_find(uint8_t **hidden, const stroke_view *v, const stroke_o
     return good ? LMN_OK : error_memory(error);
 }
 
-/* Flags pieces on which a line is seen. */
-static void mark_seen(uint8_t *seen, const stroke_view *v, const view_lines *lines, const visibility *by)
+/* Flags pieces on which a line is seen, and adds up how much of their lines is hidden, units of paper. */
+static void look_at_lines(uint8_t *seen, float *lengths, const stroke_view *v, const view_lines *lines,
+                          const visibility *by)
 {
     for (size_t i = 0; i < lines->count; i++) {
-        bool visible = false;
-        for (uint32_t k = by->starts[i]; k < by->starts[i + 1] && !visible; k++)
-            visible = by->spans[k].count == 0;
-        for (int k = 0; k < 2 && visible; k++)
-            if (lines->segments[i].faces[k] != EDGE_NO_FACE)
-                seen[v->face_pieces[lines->segments[i].faces[k]]] = 1;
+        const window_segment *s = &lines->segments[i];
+        const double          whole = hypot((double)s->b.x - s->a.x, (double)s->b.y - s->a.y) / v->units;
+        float                 hidden = 0;
+        bool                  visible = false;
+        for (uint32_t k = by->starts[i]; k < by->starts[i + 1]; k++) {
+            const float to = k + 1 < by->starts[i + 1] ? by->spans[k + 1].from : 1;
+            visible = visible || by->spans[k].count == 0;
+            hidden += by->spans[k].count ? (to - by->spans[k].from) * (float)whole : 0;
+        }
+        for (int k = 0; k < 2; k++) {
+            const uint32_t piece = s->faces[k] == EDGE_NO_FACE ? v->piece_count : v->face_pieces[s->faces[k]];
+            seen[piece] |= visible;
+            lengths[piece] += hidden;
+        }
     }
 }
 
@@ -610,16 +644,11 @@ static bool is_on_seen(const uint8_t *seen, const stroke_view *v, const window_s
     return any;
 }
 
-bool occlusion_drop(view_lines *lines, visibility *by, const stroke_view *v, const stroke_options *options)
+/* Leaves only the lines that are on a piece that is kept. */
+static void keep_lines(view_lines *lines, visibility *by, const stroke_view *v, const uint8_t *seen)
 {
     uint32_t kept = 0, spans = 0;
-    uint8_t *seen = find_small(v, least_of(options));
-    for (size_t i = 0; i < v->piece_count && seen; i++) /* what is large stays */
-        seen[i] = !seen[i];
-    if (seen)
-        mark_seen(seen, v, lines, by);
-    const bool good = seen && keep_whole(seen, v);
-    for (size_t i = 0; i < lines->count && good; i++) {
+    for (size_t i = 0; i < lines->count; i++) {
         const uint32_t first = by->starts[i], end = by->starts[i + 1];
         if (!is_on_seen(seen, v, &lines->segments[i]))
             continue;
@@ -629,9 +658,30 @@ bool occlusion_drop(view_lines *lines, visibility *by, const stroke_view *v, con
         lines->lines[kept] = lines->lines[i];
         lines->segments[kept++] = lines->segments[i];
     }
+    by->starts[kept] = spans;
+    lines->count = kept;
+}
+
+bool occlusion_drop(view_lines *lines, visibility *by, const stroke_view *v, const stroke_options *options)
+{
+    uint8_t *seen = find_small(v, least_of(options));
+    float   *lengths = mem_calloc((size_t)v->piece_count + 1, sizeof *lengths);
+    bool     good = seen && lengths;
+    for (size_t i = 0; i < v->piece_count && good; i++) { /* what is large stays */
+        lengths[i] = seen[i] ? 0 : INFINITY;
+        seen[i] = !seen[i];
+    }
     if (good)
-        by->starts[kept] = spans;
-    lines->count = good ? kept : lines->count;
-    mem_free(seen);
+        look_at_lines(seen, lengths, v, lines, by);
+    good = good && keep_whole(seen, lengths, v);
+    if (good)
+        keep_lines(lines, by, v, seen);
+    for (size_t i = 0; i < v->piece_count && good; i++)
+        seen[i] = lengths[i] < options->figure;
+    if (good && options->hidden)
+        lines->bare = seen;
+    else
+        mem_free(seen);
+    mem_free(lengths);
     return good;
 }

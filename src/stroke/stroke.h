@@ -218,13 +218,14 @@ typedef struct stroke_options {
     float   detail; /* 1: all lines; less: what says least goes where lines crowd, whole chains, down to 0 */
     int32_t refine; /* 0 … 3: how often surfaces are refined, by whoever makes the scene: stroke_scene_create_refined */
     int32_t curve; /* 0 … 4: how often chains of contours are refined as curves */
-    float   island; /* with hidden: pieces of surface that are smaller on the page, and of which nothing is seen, have no
-                       lines, units */
+    /* With hidden, where there are thousands of pieces of surface smaller than `island` on the page: those of which
+     * nothing is seen have no lines, and those of which less than `figure` is hidden only visible ones; units. */
+    float island, figure;
     float   round; /* with curve 0: by how much lines that stand for curves may leave the mesh, units; 0: not at all */
 } stroke_options;
 #define STROKE_OPTIONS_INIT                                                                                            \
     {                                                                                                                  \
-        CONTOURS_EDGES, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 0, 1.0f, 2.0f, 0.75f, 1.0f, 0, 0, 0, 0                        \
+        CONTOURS_EDGES, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 0, 1.0f, 2.0f, 0.75f, 1.0f, 0, 0, 0, 0, 0                        \
     }
 
 /* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one

@@ -281,6 +281,7 @@ typedef struct view_lines {
     uint32_t        end_count; /* numbers that ends have: 0 … end_count − 1 */
     uint32_t       *ignored;   /* what the segments' lists of faces are parts of */
     uint32_t       *beside;    /* … and those of pieces */
+    uint8_t        *bare;      /* pieces of whose lines only what is seen is wanted, a flag each; NULL: none */
     outline_search  search;
 } view_lines;
 /* --- beside.c --- */
@@ -302,7 +303,8 @@ uint64_t line_id(uint64_t a, uint64_t b); /* numbers that differ for different l
 /* Flags pieces of the view that lie wholly behind others, beyond doubt, and are smaller than stroke_options.island; any
  * size where nothing hidden is wanted. *hidden: NULL where there are too few such pieces to ask; free it with mem_free. */
 lmn_status occlusion_find(uint8_t **hidden, const stroke_view *v, const stroke_options *options, lmn_error *error);
-/* Drops the lines that are only on such pieces: all of those on which no line is seen. False when memory is gone. */
+/* Drops the lines that are only on such pieces: all of those on which no line is seen; and says whose hidden lines are no
+ * longer together than stroke_options.figure. False when memory is gone. */
 bool occlusion_drop(view_lines *lines, visibility *by, const stroke_view *v, const stroke_options *options);
 
 /* --- form.c --- */
