@@ -16,6 +16,7 @@ typedef void (*maker)(lmn_scene *s, uint32_t count);
 typedef struct outcome {
     double   seconds, visible, hidden; /* lengths, of all lines */
     uint64_t pairs, entries, ends;     /* that were compared, or looked at */
+    uint64_t lines;                    /* whose visibility was asked for */
     size_t   strokes;
 } outcome;
 
@@ -26,24 +27,22 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void find(const pose *p, const stroke_camera *c, outcome *out)
+static void find(const pose *p, const stroke_camera *c, const stroke_options *w, outcome *out)
 {
-    stroke_options w = STROKE_OPTIONS_INIT;
-    stroke_scene   scene;
-    stroke_view   *view;
-    stroke_set     set;
-    lmn_error      error = {0};
-    double         begin = now();
-    w.hidden = 1;
-    w.crowd = 0;
+    stroke_scene scene;
+    stroke_view *view;
+    stroke_set   set;
+    lmn_error    error = {0};
+    double       begin = now();
     assert_int_equal(stroke_scene_create(&scene, p, NULL, 0.5, NULL, NULL, &error), LMN_OK);
     assert_int_equal(stroke_view_create(&view, &scene, c, NULL, NULL, &error), LMN_OK);
-    assert_int_equal(stroke_find(&set, view, &w, NULL, NULL, NULL, &error), LMN_OK);
+    assert_int_equal(stroke_find(&set, view, w, NULL, NULL, NULL, &error), LMN_OK);
     out->seconds = fmin(out->seconds, now() - begin);
     out->visible = out->hidden = 0;
     out->pairs = set.pairs;
     out->entries = set.entries;
     out->ends = set.ends_compared;
+    out->lines = set.lines;
     out->strokes = set.stroke_count;
     for (size_t i = 0; i < set.stroke_count; i++)
         for (uint32_t k = 1; k < set.strokes[i].count; k++) {
@@ -56,7 +55,15 @@ static void find(const pose *p, const stroke_camera *c, outcome *out)
     stroke_scene_release(&scene);
 }
 
-static outcome run(maker make, uint32_t count)
+static stroke_options all_lines(void)
+{
+    stroke_options w = STROKE_OPTIONS_INIT;
+    w.hidden = 1;
+    w.crowd = 0;
+    return w;
+}
+
+static outcome run_with(maker make, uint32_t count, const stroke_options *w)
 {
     outcome       out = {.seconds = INFINITY};
     lmn_error     error = {0};
@@ -67,10 +74,16 @@ static outcome run(maker make, uint32_t count)
     assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
     assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, &error), LMN_OK);
     for (int k = 0; k < RUNS; k++)
-        find(&at_rest, &c, &out);
+        find(&at_rest, &c, w, &out);
     pose_release(&at_rest);
     scene_free(s);
     return out;
+}
+
+static outcome run(maker make, uint32_t count)
+{
+    const stroke_options w = all_lines();
+    return run_with(make, count, &w);
 }
 
 /* Thin triangles from one place to a circle around it, in the plane that the camera looks at straight on. */
@@ -113,10 +126,9 @@ static void stars_grow_as_their_spokes(void **state)
 static void ends_in_one_place_are_not_all_compared(void **state)
 {
     (void)state;
-    outcome few = run(make_star, 100), many = run(make_star, 1600);
-    if (!(many.ends > many.strokes) || many.ends > 24 * few.ends || many.ends > 64 * many.strokes)
-        fail_msg("%zu strokes: %g pairs of ends are compared; %zu: %g", few.strokes, (double)few.ends, many.strokes,
-                 (double)many.ends);
+    outcome many = run(make_star, 1600);
+    if (!(many.ends > many.strokes) || many.ends > 16 * many.strokes)
+        fail_msg("%zu strokes: %g pairs of ends are compared", many.strokes, (double)many.ends);
 }
 
 /* Narrow triangles from one place in all directions, as wide as is asked for. */
@@ -316,6 +328,93 @@ static void surfaces_in_front_do_not_fill_the_grid(void **state)
         fail_msg("400 sheets have %zu entries, 1600 %zu", few, many);
 }
 
+/* Triangles anywhere in a cube, which share nothing, the smaller the more there are. */
+static void make_soup(lmn_scene *s, uint32_t count)
+{
+    const double size = 1.6 / cbrt(count);
+    vec3        *positions = mem_alloc(3 * (size_t)count * sizeof *positions);
+    uint32_t    *corners = mem_alloc(3 * (size_t)count * sizeof *corners);
+    for (uint32_t i = 0; i < 3 * count; i++) {
+        double at[3];
+        for (uint32_t k = 0; k < 3; k++)
+            at[k] = 0.6 * stroke_random(3 * (i / 3) + k) + size * stroke_random(3 * i + k + 7000001);
+        positions[i] = (vec3){(float)at[0], (float)at[1], (float)at[2]};
+        corners[i] = i;
+    }
+    add_part(s, positions, 3 * count, corners, 3 * count);
+    mem_free(positions);
+    mem_free(corners);
+}
+
+/* Small things that are hidden have no lines, and most of a soup is: what lies in front grows as the surface of a cube
+ * does, and not as its volume. */
+static void hidden_pieces_are_not_looked_for(void **state)
+{
+    (void)state;
+    stroke_options w = all_lines();
+    w.island = 400;
+    outcome few = run_with(make_soup, 6000, &w), many = run_with(make_soup, 48000, &w);
+    if (!(few.lines > 6000) || !(many.lines < 5 * few.lines) || !(many.pairs < 6 * few.pairs))
+        fail_msg("of 6000 triangles %g lines are looked for in %g pairs, of 48000 %g in %g", (double)few.lines,
+                 (double)few.pairs, (double)many.lines, (double)many.pairs);
+}
+
+/* What is seen does not depend on it, whether what is hidden of the rest is drawn or not. */
+static void what_is_seen_stays(void **state)
+{
+    (void)state;
+    stroke_options w = all_lines();
+    w.shortest = 0; /* of whole lines, with what is hidden of them */
+    w.detail = 1;
+    outcome all = run_with(make_soup, 12000, &w);
+    w.island = 400;
+    outcome islands = run_with(make_soup, 12000, &w);
+    w.figure = 400;
+    outcome figures = run_with(make_soup, 12000, &w);
+    w.hidden = 0;
+    outcome seen = run_with(make_soup, 12000, &w);
+    if (!(islands.hidden < 0.8 * all.hidden) || !(figures.hidden < 0.2 * islands.hidden) || seen.hidden > 0)
+        fail_msg("%g px are hidden, %g of what is seen in part, %g of long lines", all.hidden, islands.hidden,
+                 figures.hidden);
+    if (!(all.visible > 1000) || fabs(islands.visible - all.visible) > 1e-4 * all.visible ||
+        fabs(figures.visible - all.visible) > 1e-4 * all.visible ||
+        fabs(seen.visible - all.visible) > 1e-4 * all.visible)
+        fail_msg("%g px are seen, without islands %g, without short figures %g, alone %g", all.visible, islands.visible,
+                 figures.visible, seen.visible);
+}
+
+/* Rows of quads of which every second one is cut once more: a T-junction at each quad. */
+static void make_junctions(lmn_scene *s, uint32_t count)
+{
+    const uint32_t side = (uint32_t)lround(sqrt(count)), quads = side * side;
+    vec3          *positions = mem_alloc(6 * (size_t)quads * sizeof *positions);
+    uint32_t      *corners = mem_alloc(12 * (size_t)quads * sizeof *corners), used = 0;
+    for (uint32_t i = 0; i < quads; i++) {
+        const double x = (double)(i % side) / side, y = (double)(i / side) / side, step = 1.0 / side;
+        for (uint32_t k = 0; k < 6; k++) /* left, middle and right, below and above */
+            positions[6 * i + k] = (vec3){(float)(x + 0.5 * step * (k % 3) - 0.5), (float)(y + step * (k / 3) - 0.5),
+                                          (float)(0.3 * sin(9 * (y + step * (k / 3))))};
+        const uint32_t whole[6] = {0, 2, 5, 0, 5, 3}, halves[12] = {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
+        const bool     cut = i / side % 2;
+        for (uint32_t k = 0; k < (cut ? 12 : 6); k++)
+            corners[used++] = 6 * i + (cut ? halves[k] : whole[k]);
+    }
+    add_part(s, positions, 6 * quads, corners, used);
+    mem_free(positions);
+    mem_free(corners);
+}
+
+static void junctions_grow_as_their_number(void **state)
+{
+    (void)state;
+    outcome few = run(make_junctions, 2500), many = run(make_junctions, 10000);
+    if (!(few.strokes > 50) || !(many.ends < 5 * few.ends + 1000) || !(many.pairs < 6 * few.pairs) ||
+        many.ends > 64 * many.strokes)
+        fail_msg("2500 quads: %zu strokes, %g pairs of ends, %g of lines and triangles; 10000: %zu, %g, %g",
+                 few.strokes, (double)few.ends, (double)few.pairs, many.strokes, (double)many.ends,
+                 (double)many.pairs);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -323,6 +422,8 @@ int main(void)
         cmocka_unit_test(spikes_are_compared_by_directions), cmocka_unit_test(spikes_cross_as_they_did),
         cmocka_unit_test(spikes_hide_by_directions),         cmocka_unit_test(spikes_hide_what_their_parts_do),
         cmocka_unit_test(specks_grow_as_they_are_full),      cmocka_unit_test(surfaces_in_front_do_not_fill_the_grid),
+        cmocka_unit_test(hidden_pieces_are_not_looked_for),  cmocka_unit_test(what_is_seen_stays),
+        cmocka_unit_test(junctions_grow_as_their_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
