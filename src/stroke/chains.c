@@ -585,13 +585,13 @@ static bool wants_hidden(const chainer *c)
 
 static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool closed, double length)
 {
-    stroke s = {.kind = line->kind,
-                .part = c->v->scene->items[line->item].part_index + 1,
-                .piece = piece_of(c, c->path[0] / 2),
-                .chain = (uint32_t)c->out->chain_count,
-                .id = id,
-                .chain_length = (float)length,
-                .smooth = c->lines->segments[c->path[0] / 2].ignored_count > 0};
+    stroke     s = {.kind = line->kind,
+                    .part = c->v->scene->items[line->item].part_index + 1,
+                    .piece = piece_of(c, c->path[0] / 2),
+                    .chain = (uint32_t)c->out->chain_count,
+                    .id = id,
+                    .chain_length = (float)length,
+                    .smooth = c->lines->segments[c->path[0] / 2].ignored_count > 0};
     size_t     before = c->out->stroke_count;
     const bool hidden = wants_hidden(c);
     for (size_t i = 0; i < c->path_count; i++)

@@ -670,7 +670,7 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, const b
                          .region = box3_empty(),
                          .progress = progress,
                          .user = user};
-    lmn_status status = search(&s, error);
+    lmn_status      status = search(&s, error);
     mem_free(s.first_piece);
     mem_free(s.still);
     mem_free(s.piece_boxes);

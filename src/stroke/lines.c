@@ -22,7 +22,7 @@ typedef struct collector {
     const stroke_view    *v;
     const stroke_options *options;
     const bool           *parts;
-    const uint8_t        *hidden; /* pieces whose lines are not wanted; NULL: none */
+    const uint8_t        *hidden;    /* pieces whose lines are not wanted; NULL: none */
     double3              *positions; /* of the ends that only lines have, from v->vertex_count on */
     uint32_t             *slots;     /* hash table of them; NO_VERTEX when empty */
     size_t                position_count, position_capacity, slot_mask;
@@ -289,7 +289,8 @@ lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_opt
     out->end_count = v->vertex_count;
     crossing_list        own = {0};
     const crossing_list *crossings = !options->intersections ? NULL : v->scene->crossings ? v->scene->crossings : &own;
-    lmn_status status = crossings == &own ? crossings_find(&own, v->scene, parts, hidden, progress, user, error) : LMN_OK;
+    lmn_status           status =
+        crossings == &own ? crossings_find(&own, v->scene, parts, hidden, progress, user, error) : LMN_OK;
     if (status == LMN_OK && crossings && !collect_crossings(&c, crossings))
         status = error_memory(error);
     for (uint32_t i = 0; i < v->scene->item_count && status == LMN_OK; i++) {

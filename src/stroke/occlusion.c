@@ -43,7 +43,7 @@ typedef struct occlusion {
 typedef struct flat_triangle {
     double x[3], y[3], low_y, high_y, near_z, far_z;
     double z, along_x, along_y, middle; /* middle: in the middle of the page */
-    double margin; /* what is behind it is farther behind it than this */
+    double margin;                      /* what is behind it is farther behind it than this */
 } flat_triangle;
 
 typedef struct tile {
@@ -419,9 +419,9 @@ static cell_range cells_touched(const flat_triangle *f, double y, double side, d
             low = f->x[k] < low ? f->x[k] : low;
             high = f->x[k] > high ? f->x[k] : high;
         }
-    return high < low ? (cell_range){0, 0}
-                      : (cell_range){clamp_cell(floor((low - around) / side)),
-                                     clamp_cell(floor((high + around) / side) + 1)};
+    return high < low
+               ? (cell_range){0, 0}
+               : (cell_range){clamp_cell(floor((low - around) / side)), clamp_cell(floor((high + around) / side) + 1)};
 }
 
 static void cover_row(tile *t, const flat_triangle *f, int row, cell_range cells)
@@ -432,7 +432,7 @@ static void cover_row(tile *t, const flat_triangle *f, int row, cell_range cells
     /* what is rounded in single precision, twice */
     const float from = (float)(first + f->along_x * side * cells.first),
                 more = 4e-7f * (fabsf(from) + fabsf(step) * TILE);
-    float      *depths = t->depths + (size_t)row * TILE + cells.first;
+    float *depths = t->depths + (size_t)row * TILE + cells.first;
     for (int i = 0; i < cells.end - cells.first; i++) {
         float z = from + step * (float)i + more;
         z = z < most ? z : most;

@@ -221,11 +221,11 @@ typedef struct stroke_options {
     /* With hidden, where there are thousands of pieces of surface smaller than `island` on the page: those of which
      * nothing is seen have no lines, and those of which less than `figure` is hidden only visible ones; units. */
     float island, figure;
-    float   round; /* with curve 0: by how much lines that stand for curves may leave the mesh, units; 0: not at all */
+    float round; /* with curve 0: by how much lines that stand for curves may leave the mesh, units; 0: not at all */
 } stroke_options;
 #define STROKE_OPTIONS_INIT                                                                                            \
     {                                                                                                                  \
-        CONTOURS_EDGES, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 0, 1.0f, 2.0f, 0.75f, 1.0f, 0, 0, 0, 0, 0                        \
+        CONTOURS_EDGES, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 0, 1.0f, 2.0f, 0.75f, 1.0f, 0, 0, 0, 0, 0                  \
     }
 
 /* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one

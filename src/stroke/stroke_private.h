@@ -289,7 +289,7 @@ typedef struct view_lines {
  * keeps which pieces these are. False when memory is gone. */
 bool crossings_settle(crossing_list *list);
 /* Says which pieces change places with those that segments are of. False when memory is gone. */
-bool       beside_link(view_lines *out, const stroke_view *v, const crossing_list *crossings);
+bool beside_link(view_lines *out, const stroke_view *v, const crossing_list *crossings);
 /* `hidden`: pieces whose own lines are not wanted, a flag each; NULL: none. */
 lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts,
                          const uint8_t *hidden, lmn_progress_fn progress, void *user, lmn_error *error);
@@ -301,10 +301,11 @@ uint64_t line_id(uint64_t a, uint64_t b); /* numbers that differ for different l
 
 /* --- occlusion.c --- */
 /* Flags pieces of the view that lie wholly behind others, beyond doubt, and are smaller than stroke_options.island; any
- * size where nothing hidden is wanted. *hidden: NULL where there are too few such pieces to ask; free it with mem_free. */
+ * size where nothing hidden is wanted. *hidden: NULL where there are too few such pieces to ask; free it with mem_free.
+ */
 lmn_status occlusion_find(uint8_t **hidden, const stroke_view *v, const stroke_options *options, lmn_error *error);
-/* Drops the lines that are only on such pieces: all of those on which no line is seen; and says whose hidden lines are no
- * longer together than stroke_options.figure. False when memory is gone. */
+/* Drops the lines that are only on such pieces: all of those on which no line is seen; and says whose hidden lines are
+ * no longer together than stroke_options.figure. False when memory is gone. */
 bool occlusion_drop(view_lines *lines, visibility *by, const stroke_view *v, const stroke_options *options);
 
 /* --- form.c --- */

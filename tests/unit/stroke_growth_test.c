@@ -411,8 +411,7 @@ static void junctions_grow_as_their_number(void **state)
     if (!(few.strokes > 50) || !(many.ends < 5 * few.ends + 1000) || !(many.pairs < 6 * few.pairs) ||
         many.ends > 64 * many.strokes)
         fail_msg("2500 quads: %zu strokes, %g pairs of ends, %g of lines and triangles; 10000: %zu, %g, %g",
-                 few.strokes, (double)few.ends, (double)few.pairs, many.strokes, (double)many.ends,
-                 (double)many.pairs);
+                 few.strokes, (double)few.ends, (double)few.pairs, many.strokes, (double)many.ends, (double)many.pairs);
 }
 
 int main(void)
