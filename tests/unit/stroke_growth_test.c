@@ -431,6 +431,39 @@ static void what_is_seen_stays(void **state)
     check_what_is_seen(make_boxes, 4500, &near, "boxes from nearby");
 }
 
+/* Pairs of triangles that share a corner under a plate, from under which one of each reaches out. */
+static void make_pairs(lmn_scene *s, uint32_t count)
+{
+    vec3     *positions = mem_alloc(5 * (size_t)count * sizeof *positions);
+    uint32_t *corners = mem_alloc(6 * (size_t)count * sizeof *corners);
+    for (uint32_t i = 0; i < count; i++) {
+        const float    x = (float)i / (float)count, step = 0.8f / (float)count;
+        const uint32_t pair[6] = {0, 1, 2, 2, 3, 4};
+        const vec3     own[5] = {{x, -0.1f, 0}, {x + step, -0.1f, 0}, {x, 0, 0}, {x + step, 0.1f, 0}, {x, 0.1f, 0}};
+        memcpy(positions + 5 * i, own, sizeof own);
+        for (uint32_t k = 0; k < 6; k++)
+            corners[6 * i + k] = 5 * i + pair[k];
+    }
+    add_part(s, positions, 5 * count, corners, 6 * count);
+    add_plate(s, -1, -0.05, 2, 1, 0.2);
+    mem_free(positions);
+    mem_free(corners);
+}
+
+/* Lines go on from one to the other. */
+static void what_hangs_together_is_hidden_together(void **state)
+{
+    (void)state;
+    const double        middle[3] = {0.5, 0, 0};
+    const stroke_camera above = look_along(0, 0, -1, middle, 20, 0.6, true, 1000, 1000);
+    stroke_options      w = all_lines();
+    outcome             all = run_with(make_pairs, 2500, &above, &w);
+    w.island = 400;
+    outcome islands = run_with(make_pairs, 2500, &above, &w);
+    if (!(all.hidden > 1000) || fabs(islands.hidden - all.hidden) > 1e-4 * all.hidden)
+        fail_msg("%g px are hidden, without islands %g", all.hidden, islands.hidden);
+}
+
 /* With every allocation that fails in turn, nothing is lost and nothing is made up. */
 static void search_of_the_hidden_copes_without_memory(void **state)
 {
@@ -500,12 +533,19 @@ static void junctions_grow_as_their_number(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stars_grow_as_their_spokes),        cmocka_unit_test(ends_in_one_place_are_not_all_compared),
-        cmocka_unit_test(spikes_are_compared_by_directions), cmocka_unit_test(spikes_cross_as_they_did),
-        cmocka_unit_test(spikes_hide_by_directions),         cmocka_unit_test(spikes_hide_what_their_parts_do),
-        cmocka_unit_test(specks_grow_as_they_are_full),      cmocka_unit_test(surfaces_in_front_do_not_fill_the_grid),
-        cmocka_unit_test(hidden_pieces_are_not_looked_for),  cmocka_unit_test(what_is_seen_stays),
-        cmocka_unit_test(junctions_grow_as_their_number),    cmocka_unit_test(search_of_the_hidden_copes_without_memory),
+        cmocka_unit_test(stars_grow_as_their_spokes),
+        cmocka_unit_test(ends_in_one_place_are_not_all_compared),
+        cmocka_unit_test(spikes_are_compared_by_directions),
+        cmocka_unit_test(spikes_cross_as_they_did),
+        cmocka_unit_test(spikes_hide_by_directions),
+        cmocka_unit_test(spikes_hide_what_their_parts_do),
+        cmocka_unit_test(specks_grow_as_they_are_full),
+        cmocka_unit_test(surfaces_in_front_do_not_fill_the_grid),
+        cmocka_unit_test(hidden_pieces_are_not_looked_for),
+        cmocka_unit_test(what_is_seen_stays),
+        cmocka_unit_test(junctions_grow_as_their_number),
+        cmocka_unit_test(search_of_the_hidden_copes_without_memory),
+        cmocka_unit_test(what_hangs_together_is_hidden_together),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
