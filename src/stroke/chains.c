@@ -571,22 +571,35 @@ static float lift_of(const chainer *c, uint32_t line)
     return s->beside_count ? fmaxf(s->lift, (float)(BESIDE_LIFT * c->v->scene->extent)) : s->lift;
 }
 
+/* Is what is hidden of the chain wanted? */
+static bool wants_hidden(const chainer *c)
+{
+    bool wanted = c->options->hidden && !c->lines->bare;
+    for (size_t i = 0; i < c->path_count && c->options->hidden && !wanted; i++) {
+        const uint32_t *faces = c->lines->segments[c->path[i] / 2].faces;
+        for (int k = 0; k < 2 && !wanted; k++)
+            wanted = faces[k] == EDGE_NO_FACE ? k == 0 : !c->lines->bare[c->v->face_pieces[faces[k]]];
+    }
+    return wanted;
+}
+
 static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool closed, double length)
 {
-    stroke s = {.kind = line->kind,
-                .part = c->v->scene->items[line->item].part_index + 1,
-                .piece = piece_of(c, c->path[0] / 2),
-                .chain = (uint32_t)c->out->chain_count,
-                .id = id,
-                .chain_length = (float)length,
-                .smooth = c->lines->segments[c->path[0] / 2].ignored_count > 0};
-    size_t before = c->out->stroke_count;
+    stroke     s = {.kind = line->kind,
+                    .part = c->v->scene->items[line->item].part_index + 1,
+                    .piece = piece_of(c, c->path[0] / 2),
+                    .chain = (uint32_t)c->out->chain_count,
+                    .id = id,
+                    .chain_length = (float)length,
+                    .smooth = c->lines->segments[c->path[0] / 2].ignored_count > 0};
+    size_t     before = c->out->stroke_count;
+    const bool hidden = wants_hidden(c);
     for (size_t i = 0; i < c->path_count; i++)
         s.lift = fmaxf(s.lift, lift_of(c, c->path[i] / 2));
     for (size_t begin = 0, end; begin + 1 < c->point_count; begin = end) {
         end = stretch_end(c, begin);
         int32_t count = c->points[begin].count;
-        if (count == OUTSIDE || (count > 0 && !c->options->hidden) || c->points[end].arc <= c->points[begin].arc)
+        if (count == OUTSIDE || (count > 0 && !hidden) || c->points[end].arc <= c->points[begin].arc)
             continue;
         s.hidden_by = (uint32_t)count;
         s.closed = closed && begin == 0 && end + 1 == c->point_count;
@@ -694,13 +707,22 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_optio
 {
     view_lines lines;
     visibility seen;
+    uint8_t   *hidden = NULL;
     memset(out, 0, sizeof *out);
-    lmn_status status = lines_collect(&lines, v, options, parts, progress, user, error);
+    lmn_status status = occlusion_find(&hidden, v, options, error);
+    if (status == LMN_OK)
+        status = lines_collect(&lines, v, options, parts, hidden, progress, user, error);
+    const bool many = hidden != NULL;
+    mem_free(hidden);
     if (status != LMN_OK)
         return status;
+    const size_t asked = lines.count;
     status = outlines_see(&seen, v, &lines, progress, user, error);
+    if (status == LMN_OK && many && !occlusion_drop(&lines, &seen, v, options))
+        status = error_memory(error);
     if (status == LMN_OK)
         status = chains_make(out, v, &lines, &seen, options, error);
+    out->lines = asked;
     if (status == LMN_OK)
         status = strokes_join(out, v, options, error);
     if (status == LMN_OK)

@@ -42,6 +42,8 @@ typedef struct crossing_search {
     uint8_t            *piece_meets; /* another one's box */
     const bool         *parts;       /* that have such lines, a flag each; NULL: all */
     uint8_t            *piece_asks;  /* is of such a part */
+    const uint8_t      *hidden;      /* pieces that have none with each other; NULL: no piece is such */
+    uint32_t           *bodies;      /* per piece: its number, or one that all these have; NULL likewise */
     uint32_t           *piece_items;
     uint32_t            piece_count;
     box3                region; /* of all overlaps */
@@ -49,6 +51,7 @@ typedef struct crossing_search {
     near_face          *faces;
     box3               *boxes;
     uint32_t           *pieces, *planes; /* per near face, of all items */
+    uint32_t           *face_bodies;     /* likewise; NULL: they are the pieces */
     uint32_t (*corners)[3];              /* likewise: vertices */
     uint32_t       *hubs;
     bool            unnumbered; /* there are more vertices than numbers: no hubs are looked for */
@@ -103,8 +106,12 @@ static lmn_status number_pieces(crossing_search *s, lmn_error *error)
     s->piece_asks = mem_calloc(s->piece_count + 1, 1);
     s->piece_items = mem_alloc((s->piece_count + 1) * sizeof *s->piece_items);
     s->marks = mem_calloc(MARK_SIDE * MARK_SIDE, sizeof *s->marks);
-    if (!s->piece_boxes || !s->piece_meets || !s->piece_asks || !s->piece_items || !s->marks)
+    s->bodies = s->hidden ? mem_alloc((s->piece_count + 1) * sizeof *s->bodies) : NULL;
+    if (!s->piece_boxes || !s->piece_meets || !s->piece_asks || !s->piece_items || !s->marks ||
+        (s->hidden && !s->bodies))
         return error_memory(error);
+    for (uint32_t k = 0; k < s->piece_count && s->hidden; k++)
+        s->bodies[k] = s->hidden[k] ? s->piece_count : k;
     for (size_t i = 0; i < scene->item_count; i++) {
         const edge_mesh *m = &scene->meshes[scene->items[i].mesh];
         const bool       asks = !s->parts || s->parts[scene->items[i].part_index];
@@ -126,7 +133,7 @@ static bool may_cross(const stroke_item *a, const stroke_item *b)
 /* Would anybody draw the line where two pieces cross? */
 static bool asks_for(const crossing_search *s, uint32_t a, uint32_t b)
 {
-    return (s->piece_asks[a] || s->piece_asks[b]) &&
+    return (s->piece_asks[a] || s->piece_asks[b]) && !(s->hidden && s->hidden[a] && s->hidden[b]) &&
            may_cross(&s->scene->items[s->piece_items[a]], &s->scene->items[s->piece_items[b]]);
 }
 
@@ -583,7 +590,12 @@ static lmn_status compare_faces(crossing_search *s, lmn_error *error)
     s->hubs = s->unnumbered ? NULL : mem_alloc((s->face_count + 1) * sizeof *s->hubs);
     if (!s->unnumbered && (!s->hubs || !hubs_find(s->hubs, &faces)))
         return error_memory(error);
-    const hierarchy_kin kin = {{s->pieces, s->planes, s->hubs}};
+    s->face_bodies = s->hidden ? mem_alloc((s->face_count + 1) * sizeof *s->face_bodies) : NULL;
+    if (s->hidden && !s->face_bodies)
+        return error_memory(error);
+    for (size_t i = 0; i < s->face_count && s->hidden; i++)
+        s->face_bodies[i] = s->bodies[s->pieces[i]];
+    const hierarchy_kin kin = {{s->hidden ? s->face_bodies : s->pieces, s->planes, s->hubs}};
     lmn_status          status = hierarchy_build(&tree, s->boxes, kin, (uint32_t)s->face_count, error);
     if (status != LMN_OK)
         return status;
@@ -592,19 +604,32 @@ static lmn_status compare_faces(crossing_search *s, lmn_error *error)
     return going && s->hubs ? hubs_pairs(s->hubs, &faces, cross_faces, s, &going, error) : LMN_OK;
 }
 
+/* Of pieces that are single faces it takes as long to say where they overlap. */
+static size_t faces_of(const stroke_scene *scene)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < scene->item_count; i++)
+        count += scene->meshes[scene->items[i].mesh].face_count;
+    return count;
+}
+
 static lmn_status search(crossing_search *s, lmn_error *error)
 {
-    static const hierarchy_kin none = {{NULL}};
-    hierarchy                  tree;
-    lmn_status                 status = number_pieces(s, error);
-    if (status == LMN_OK)
-        status = hierarchy_build(&tree, s->piece_boxes, none, s->piece_count, error);
+    hierarchy           tree;
+    lmn_status          status = number_pieces(s, error);
+    const hierarchy_kin kin = {{s->bodies}};
     if (status != LMN_OK)
         return status;
-    hierarchy_pairs(&tree, s->piece_boxes, none, widen_region, s);
-    if (!s->crowded && !box3_is_empty(s->region))
-        hierarchy_pairs(&tree, s->piece_boxes, none, mark_region, s);
-    hierarchy_release(&tree);
+    s->crowded = s->hidden && 2 * (size_t)s->piece_count > faces_of(s->scene);
+    if (!s->crowded) {
+        status = hierarchy_build(&tree, s->piece_boxes, kin, s->piece_count, error);
+        if (status != LMN_OK)
+            return status;
+        hierarchy_pairs(&tree, s->piece_boxes, kin, widen_region, s);
+        if (!s->crowded && !box3_is_empty(s->region))
+            hierarchy_pairs(&tree, s->piece_boxes, kin, mark_region, s);
+        hierarchy_release(&tree);
+    }
     if (!s->crowded && box3_is_empty(s->region))
         return LMN_OK;
     status = gather_faces(s, error);
@@ -634,19 +659,26 @@ static bool crossings_sort(crossing_list *c, size_t item_count)
     return true;
 }
 
-lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, const bool *parts, lmn_progress_fn progress,
-                          void *user, lmn_error *error)
+lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, const bool *parts, const uint8_t *hidden,
+                          lmn_progress_fn progress, void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    crossing_search s = {
-        .scene = scene, .out = out, .parts = parts, .region = box3_empty(), .progress = progress, .user = user};
-    lmn_status status = search(&s, error);
+    crossing_search s = {.scene = scene,
+                         .out = out,
+                         .parts = parts,
+                         .hidden = hidden,
+                         .region = box3_empty(),
+                         .progress = progress,
+                         .user = user};
+    lmn_status      status = search(&s, error);
     mem_free(s.first_piece);
     mem_free(s.still);
     mem_free(s.piece_boxes);
     mem_free(s.piece_meets);
     mem_free(s.piece_asks);
     mem_free(s.piece_items);
+    mem_free(s.bodies);
+    mem_free(s.face_bodies);
     mem_free(s.marks);
     mem_free(s.faces);
     mem_free(s.boxes);
@@ -703,7 +735,7 @@ lmn_status stroke_scene_cross(stroke_scene *s, const bool *parts, size_t part_co
         s->crossings = mem_calloc(1, sizeof *s->crossings);
     if (!s->crossings)
         return error_memory(error);
-    lmn_status status = crossings_find(s->crossings, s, parts, progress, user, error);
+    lmn_status status = crossings_find(s->crossings, s, parts, NULL, progress, user, error);
     if (status == LMN_OK && parts) {
         s->crossings->part_count = part_count;
         s->crossings->parts = mem_copy(parts, part_count * sizeof *parts);

@@ -332,9 +332,10 @@ bool ends_pair(uint32_t *partners, const end_place *places, size_t count, const 
         partners[i] = END_OF_NONE;
         p.gone[i] = places[i].group == END_OF_NONE;
     }
-    for (uint32_t i = 0; i < count && good; i++)
-        if (!p.gone[i])
-            pair_from(&p, i);
+    /* Pairs do not depend on the order; in this one what is looked at lies near what was looked at before. */
+    for (size_t i = 0; i < p.member_count && good; i++)
+        if (!p.gone[p.members[i].end])
+            pair_from(&p, p.members[i].end);
     *compared = p.compared;
     mem_free(p.members);
     mem_free(p.nodes);

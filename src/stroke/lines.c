@@ -22,6 +22,7 @@ typedef struct collector {
     const stroke_view    *v;
     const stroke_options *options;
     const bool           *parts;
+    const uint8_t        *hidden;    /* pieces whose lines are not wanted; NULL: none */
     double3              *positions; /* of the ends that only lines have, from v->vertex_count on */
     uint32_t             *slots;     /* hash table of them; NO_VERTEX when empty */
     size_t                position_count, position_capacity, slot_mask;
@@ -174,6 +175,8 @@ static bool collect_edges(collector *c, uint32_t index)
     const edge_mesh   *m = &c->v->scene->meshes[item->mesh];
     uint32_t           first_face = c->v->items[index].first_face;
     for (uint32_t i = 0; i < m->edge_count; i++) {
+        if (c->hidden && c->hidden[c->v->items[index].first_piece + m->pieces[m->edges[i].face[0]]])
+            continue;
         stroke_class kind = class_of(c, item->mesh, &m->edges[i], first_face);
         if (kind == STROKE_CONTOUR && c->outline && !c->outline[i] && !(m->edges[i].flags & EDGE_CREASE))
             continue;
@@ -279,14 +282,15 @@ static bool collect_crossings(collector *c, const crossing_list *crossings)
 /* --- all ------------------------------------------------------------------------------------------------ */
 
 lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts,
-                         lmn_progress_fn progress, void *user, lmn_error *error)
+                         const uint8_t *hidden, lmn_progress_fn progress, void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    collector c = {.out = out, .v = v, .options = options, .parts = parts};
+    collector c = {.out = out, .v = v, .options = options, .parts = parts, .hidden = hidden};
     out->end_count = v->vertex_count;
     crossing_list        own = {0};
     const crossing_list *crossings = !options->intersections ? NULL : v->scene->crossings ? v->scene->crossings : &own;
-    lmn_status status = crossings == &own ? crossings_find(&own, v->scene, parts, progress, user, error) : LMN_OK;
+    lmn_status           status =
+        crossings == &own ? crossings_find(&own, v->scene, parts, hidden, progress, user, error) : LMN_OK;
     if (status == LMN_OK && crossings && !collect_crossings(&c, crossings))
         status = error_memory(error);
     for (uint32_t i = 0; i < v->scene->item_count && status == LMN_OK; i++) {
@@ -315,6 +319,7 @@ void lines_release(view_lines *l)
     mem_free(l->segments);
     mem_free(l->ignored);
     mem_free(l->beside);
+    mem_free(l->bare);
     mem_free(l->lifts);
     memset(l, 0, sizeof *l);
 }

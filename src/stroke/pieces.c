@@ -88,5 +88,6 @@ bool piece_is_near(const stroke_point *at, const stroke_point *a, double most)
 {
     const double x = (double)a[1].x - a->x, y = (double)a[1].y - a->y, square = x * x + y * y;
     const double t = square > 0 ? fmin(fmax(((at->x - a->x) * x + (at->y - a->y) * y) / square, 0), 1) : 0;
-    return hypot(a->x + t * x - at->x, a->y + t * y - at->y) <= most;
+    const double across = a->x + t * x - at->x, up = a->y + t * y - at->y;
+    return across * across + up * up <= most * most; /* hypot is a call */
 }

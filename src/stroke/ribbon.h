@@ -68,6 +68,11 @@ typedef struct ribbon_set {
     size_t ribbon_count, point_count, dash_count;
 } ribbon_set;
 
+/* What this style draws of hidden lines: none of pieces of surface that are smaller on the page than the first, where
+ * nothing of them is seen, nor of what is shorter than the second with all that it hangs together with. For
+ * stroke_options. */
+float ribbons_island(const stroke_style *style);
+float ribbons_figure(const stroke_style *style);
 /* Draws strokes in a style: what is hidden comes first, so that what is visible lies on it. The same seed, the same
  * ribbons; what is random belongs to a chain's id and position along it, so that it stays from frame to frame. Errors:
  * LMN_MEMORY. */

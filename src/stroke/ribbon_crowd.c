@@ -324,6 +324,11 @@ static void judge_part(gap_list *out, crowd_grid *g, const hidden_run *runs, siz
     take_out_all(out, runs, count);
 }
 
+float ribbons_island(const stroke_style *style)
+{
+    return style->hidden != HIDDEN_NONE && style->hidden_crowd > 0 ? island_least : 0;
+}
+
 void ribbon_find_crowds(gap_list *out, const ribbon_job *job)
 {
     crowd_grid  g;

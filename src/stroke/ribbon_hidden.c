@@ -375,6 +375,12 @@ static void close_figures(hidden_figures *f)
     mem_free(f->order.items);
 }
 
+float ribbons_figure(const stroke_style *style)
+{
+    const bool dashed = style->hidden == HIDDEN_DASHED && style->hidden_dash > 0;
+    return dashed ? DASHES_LEAST * style->hidden_dash + (DASHES_LEAST - 1) * style->hidden_gap : 0;
+}
+
 void ribbon_find_loose(gap_list *out, const ribbon_job *job)
 {
     hidden_figures f = {.job = job};

@@ -93,6 +93,7 @@ typedef struct stroke_set {
     uint64_t       pairs;         /* of lines and triangles that were compared: what the work was */
     uint64_t       entries;       /* of cells, likewise, whether they meet the line or not */
     uint64_t       ends_compared; /* pairs of ends of lines, likewise */
+    uint64_t       lines;         /* whose visibility was asked for, likewise */
 } stroke_set;
 void stroke_set_release(stroke_set *s);
 
@@ -217,11 +218,14 @@ typedef struct stroke_options {
     float   detail; /* 1: all lines; less: what says least goes where lines crowd, whole chains, down to 0 */
     int32_t refine; /* 0 … 3: how often surfaces are refined, by whoever makes the scene: stroke_scene_create_refined */
     int32_t curve; /* 0 … 4: how often chains of contours are refined as curves */
-    float   round; /* with curve 0: by how much lines that stand for curves may leave the mesh, units; 0: not at all */
+    /* With hidden, where there are thousands of pieces of surface smaller than `island` on the page: those of which
+     * nothing is seen have no lines, and those of which less than `figure` is hidden only visible ones; units. */
+    float island, figure;
+    float round; /* with curve 0: by how much lines that stand for curves may leave the mesh, units; 0: not at all */
 } stroke_options;
 #define STROKE_OPTIONS_INIT                                                                                            \
     {                                                                                                                  \
-        CONTOURS_EDGES, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 0, 1.0f, 2.0f, 0.75f, 1.0f, 0, 0, 0                        \
+        CONTOURS_EDGES, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 0, 1.0f, 2.0f, 0.75f, 1.0f, 0, 0, 0, 0, 0                  \
     }
 
 /* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one

@@ -258,9 +258,10 @@ struct crossing_list {
 void crossings_release(crossing_list *c);
 /* So far pieces that nearly coincide may lie in front of each other: fraction of the scene's diagonal. */
 #define BESIDE_LIFT 1.5e-3
-/* All that one of these parts (a flag each; NULL: all) has, in an order that depends on the scene alone. */
-lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, const bool *parts, lmn_progress_fn progress,
-                          void *user, lmn_error *error);
+/* All that one of these parts (a flag each; NULL: all) has, in an order that depends on the scene alone; but for those
+ * that hidden pieces (a flag each, of all in the scene; NULL: none) have with each other. */
+lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, const bool *parts, const uint8_t *hidden,
+                          lmn_progress_fn progress, void *user, lmn_error *error);
 
 /* --- lines.c --- */
 /* Line edges of one view, before they are chained. */
@@ -291,6 +292,7 @@ typedef struct view_lines {
     uint32_t        end_count; /* numbers that ends have: 0 … end_count − 1 */
     uint32_t       *ignored;   /* what the segments' lists of faces are parts of */
     uint32_t       *beside;    /* … and those of pieces */
+    uint8_t        *bare;      /* pieces of whose lines only what is seen is wanted, a flag each; NULL: none */
     outline_search  search;
 } view_lines;
 /* --- beside.c --- */
@@ -298,14 +300,24 @@ typedef struct view_lines {
  * keeps which pieces these are. False when memory is gone. */
 bool crossings_settle(crossing_list *list);
 /* Says which pieces change places with those that segments are of. False when memory is gone. */
-bool       beside_link(view_lines *out, const stroke_view *v, const crossing_list *crossings);
+bool beside_link(view_lines *out, const stroke_view *v, const crossing_list *crossings);
+/* `hidden`: pieces whose own lines are not wanted, a flag each; NULL: none. */
 lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts,
-                         lmn_progress_fn progress, void *user, lmn_error *error);
+                         const uint8_t *hidden, lmn_progress_fn progress, void *user, lmn_error *error);
 void       lines_release(view_lines *l);
 /* Adds a line of the world, as far as it lies in the window; ends that are cut off get numbers of their own. False
  * when memory is gone. */
 bool lines_put(view_lines *out, const stroke_view *v, view_line line, double3 a, double3 b, const uint32_t faces[2]);
 uint64_t line_id(uint64_t a, uint64_t b); /* numbers that differ for different lines and stay from view to view */
+
+/* --- occlusion.c --- */
+/* Flags pieces of the view that lie wholly behind others, beyond doubt, and are smaller than stroke_options.island; any
+ * size where nothing hidden is wanted. *hidden: NULL where there are too few such pieces to ask; free it with mem_free.
+ */
+lmn_status occlusion_find(uint8_t **hidden, const stroke_view *v, const stroke_options *options, lmn_error *error);
+/* Drops the lines that are only on such pieces: all of those on which no line is seen; and says whose hidden lines are
+ * no longer together than stroke_options.figure. False when memory is gone. */
+bool occlusion_drop(view_lines *lines, visibility *by, const stroke_view *v, const stroke_options *options);
 
 /* --- form.c --- */
 /* Is a mesh a sampling of a surface, whose outline is that surface's however it is asked for? */

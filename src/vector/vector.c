@@ -345,6 +345,8 @@ static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, rib
         options.hidden = false;
     }
     options.width = style.width;
+    options.island = ribbons_island(&style);
+    options.figure = ribbons_figure(&style);
     options.fine = (float)(simplified_part * j->wanted->smooth * VECTOR_PIXELS_PER_MM);
     style.keeps_dashed = !j->wanted->plotter;
     bool *parts = parts_of(j, r, &count);

@@ -302,7 +302,7 @@ static bool sample_lines(samples *out, const stroke_view *v, const stroke_option
     view_lines lines;
     visibility seen;
     lmn_error  error = {0};
-    if (lines_collect(&lines, v, options, NULL, NULL, NULL, &error) != LMN_OK)
+    if (lines_collect(&lines, v, options, NULL, NULL, NULL, NULL, &error) != LMN_OK)
         return false;
     bool good = visibility_find(&seen, v, lines.segments, lines.count, NULL, NULL, &error) == LMN_OK;
     for (size_t i = 0; i < lines.count && good; i++) {
