@@ -314,8 +314,8 @@ static bool is_halved(const rounding *r, const half_edge *halves, size_t count, 
 {
     uint32_t plane = r->parts[halves->primitive].planes[halves->corner / 3];
     vector3_set(edge->middle, 0, 0, 0);
-    if (is_form(plane))
-        return plane != FORM_DONE;
+    if (is_form(plane) || r->forms_only)
+        return is_form_to_halve(plane);
     *edge = edge_of(r, halves, count);
     return edge->distance > r->tolerance;
 }
@@ -655,13 +655,24 @@ static lmn_status give(mesh *out, const mesh *m, rounding *r, lmn_error *error)
     return LMN_OK;
 }
 
+/* Free forms are shaded by their file, and are no handful of triangles. */
+static bool may_have_forms(const mesh *m)
+{
+    size_t corners = 0;
+    for (size_t i = 0; i < m->primitive_count; i++)
+        corners += m->primitives[i].normals ? m->primitives[i].index_count : 0;
+    return corners / 3 >= FORM_TRIANGLES_LEAST;
+}
+
 lmn_status mesh_round(mesh *out, const mesh *m, const round_options *options, lmn_error *error)
 {
-    rounding   r = {.part_count = m->primitive_count};
+    rounding   r = {.part_count = m->primitive_count, .forms_only = options->forms_only};
     box3       box = box3_empty();
     size_t     left = options->most_vertices, added = 0;
     lmn_status status = LMN_OK;
     *out = (mesh){.name = NULL};
+    if (options->forms_only && !may_have_forms(m))
+        return LMN_OK;
     r.parts = mem_calloc(m->primitive_count + 1, sizeof *r.parts);
     if (!r.parts)
         status = error_memory(error);

@@ -28,7 +28,7 @@
 /* Vertices whose neighbours' mean is so far away, measured by their distances, are tips: ears, toes. */
 #define TIP      0.65
 #define TIP_SURE 0.9
-enum { TRIANGLES_LEAST = 32, WIDENINGS = 2 };
+enum { WIDENINGS = 2 };
 
 /* What is known of what hangs together. */
 typedef struct component {
@@ -170,7 +170,7 @@ static void measure_edge(component *to, const rounding *r, const half_edge *halv
 
 static uint32_t rounds_of(const component *c)
 {
-    if (c->no || c->triangles < TRIANGLES_LEAST || (double)c->in_plane > PLANE_SHARE * (double)c->triangles ||
+    if (c->no || c->triangles < FORM_TRIANGLES_LEAST || (double)c->in_plane > PLANE_SHARE * (double)c->triangles ||
         (double)c->split > SPLIT_SHARE * (double)c->bent || (double)c->steep > STEEP_SHARE * (double)c->edges)
         return 0;
     uint32_t rounds = 0;

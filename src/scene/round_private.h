@@ -9,7 +9,7 @@
  * many rounds before them. */
 #define NOWHERE   UINT32_MAX
 #define FORM_DONE (UINT32_MAX - 1)
-enum { FORM_ROUNDS = 3 };
+enum { FORM_ROUNDS = 3, FORM_TRIANGLES_LEAST = 32 };
 
 /* Of edge_visibility. */
 enum { ROUND_SILHOUETTE = 1, ROUND_HARD = 2 };
@@ -35,6 +35,7 @@ typedef struct rounding {
     size_t     part_count;
     uint32_t   position_count;
     double     tolerance; /* a length */
+    bool       forms_only;
     half_edge *halves;
     size_t     half_count;
     uint32_t  *starts; /* the corners at a position are corners[starts[p]] to corners[starts[p + 1] - 1] */

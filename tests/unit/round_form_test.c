@@ -249,7 +249,7 @@ static void cages_have_no_creases(void **state)
         sharp[i][0] = c->positions[c->indices[i]];
         sharp[i][1] = c->positions[c->indices[i % 3 == 2 ? i - 2 : i + 1]];
     }
-    round_options options = {PI / 6, 1.0 / 2000, 100000, (const vec3(*)[2])sharp, CORNERS};
+    round_options options = {PI / 6, 1.0 / 2000, 100000, false, (const vec3(*)[2])sharp, CORNERS};
     mesh          m;
     assert_int_equal(mesh_round(&m, &c->m, &options, NULL), LMN_OK);
     assert_int_equal(m.primitive_count, 1);
@@ -319,6 +319,28 @@ static void others_keep_their_vertices(void **state)
     }
 }
 
+/* Cages are made round alone if nothing else is to be; where they are not coarse they are no cages. */
+static void forms_are_made_alone(void **state)
+{
+    (void)state;
+    cage         *c = ear(0.03, 0);
+    round_options options = {PI / 6, 1.0 / 2000, 100000, true, NULL, 0};
+    mesh          alone, m = rounded(&c->m);
+    assert_int_equal(mesh_round(&alone, &c->m, &options, NULL), LMN_OK);
+    assert_int_equal(alone.primitive_count, 1);
+    assert_int_equal(alone.primitives[0].vertex_count, m.primitives[0].vertex_count);
+    mesh_release(&alone);
+    c->p.normals = NULL;
+    assert_int_equal(mesh_round(&alone, &c->m, &options, NULL), LMN_OK);
+    assert_int_equal(alone.primitive_count, 0);
+    c->p.normals = c->normals;
+    options.tolerance = 1.0 / 20;
+    assert_int_equal(mesh_round(&alone, &c->m, &options, NULL), LMN_OK);
+    assert_int_equal(alone.primitive_count, 0);
+    mesh_release(&m);
+    free(c);
+}
+
 /* A limit leaves whole rounds out, and with them that vertices move. */
 static void limits_leave_cages_whole(void **state)
 {
@@ -345,7 +367,7 @@ static void without_memory_it_says_so(void **state)
     cage *c = ear(0.03, 0.9);
     long  n = 1;
     for (lmn_status status = LMN_MEMORY; status != LMN_OK; n++) {
-        round_options options = {PI / 6, 1.0 / 2000, 100000, NULL, 0};
+        round_options options = {PI / 6, 1.0 / 2000, 100000, false, NULL, 0};
         mesh          m;
         mem_fail_at(n);
         status = mesh_round(&m, &c->m, &options, NULL);
@@ -363,8 +385,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cages_become_smooth),        cmocka_unit_test(cages_keep_their_size),
         cmocka_unit_test(cages_have_no_creases),      cmocka_unit_test(morphs_go_along),
-        cmocka_unit_test(others_keep_their_vertices), cmocka_unit_test(limits_leave_cages_whole),
-        cmocka_unit_test(without_memory_it_says_so),
+        cmocka_unit_test(others_keep_their_vertices), cmocka_unit_test(forms_are_made_alone),
+        cmocka_unit_test(limits_leave_cages_whole),   cmocka_unit_test(without_memory_it_says_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
