@@ -130,10 +130,13 @@ static void put_place(vec3 out[2], vec3 a, vec3 b)
     out[1] = turned ? from : to;
 }
 
-static uint8_t *say_edges(const primitive *p, const vec3 (*places)[2], size_t count)
+/* Where free forms alone are round, all else is judged by whoever draws it. */
+static uint8_t *say_edges(const primitive *p, const vec3 (*places)[2], size_t count, bool forms_only)
 {
     uint8_t *out = mem_alloc((size_t)p->index_count + 1);
-    for (uint32_t c = 0; out && c < p->index_count; c++) {
+    if (out && forms_only)
+        memset(out, ROUND_NOTHING, p->index_count);
+    for (uint32_t c = 0; out && !forms_only && c < p->index_count; c++) {
         vec3 own[2];
         put_place(own, p->positions[p->indices[c]], p->positions[p->indices[next_corner(c)]]);
         out[c] = bsearch(own, places, count, sizeof own, compare_places) ? HARD : SILHOUETTE;
@@ -153,7 +156,8 @@ static lmn_status say_all_edges(rounding *r, const round_options *options, lmn_e
     for (size_t i = 0; i < r->part_count && good; i++) {
         primitive *p = &r->parts[i].made;
         if (p->indices && !p->edges.values)
-            good = (p->edges.values = say_edges(p, (const vec3(*)[2])places, options->sharp_count)) != NULL;
+            good = (p->edges.values =
+                        say_edges(p, (const vec3(*)[2])places, options->sharp_count, options->forms_only)) != NULL;
     }
     mem_free(places);
     return good ? LMN_OK : error_memory(error);

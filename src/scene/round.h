@@ -20,7 +20,8 @@ typedef struct round_options {
 
 /* `out` becomes the mesh that is drawn instead, with normals and triangles of its own, revision 0; vertices that were
  * there keep their order, and but for free forms their places. It says of its edges that they may be outlines, or are
- * creases where edges were sharp, unless the mesh says more itself. Without primitives: the mesh is as round as it can
+ * creases where edges were sharp, unless the mesh says more itself; with `forms_only` nothing but that edges within
+ * free forms are outlines at most. Without primitives: the mesh is as round as it can
  * be. Released with mesh_release. Errors: LMN_MEMORY, LMN_LIMIT. */
 lmn_status mesh_round(mesh *out, const mesh *m, const round_options *options, lmn_error *error);
 

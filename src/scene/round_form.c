@@ -14,8 +14,9 @@
 #define DEGREE 0.017453292519943295
 /* Normals of two sides that differ by less are one: cosine. */
 #define ONE_NORMAL 0.98
-/* Of a free form's triangles less than a share lies in the plane of a neighbour: hands do not shape planes. Of its bent
- * edges few are split, and few turn as those of boxes do. */
+/* Of a free form's triangles less than a share lies in the plane of a neighbour: hands do not shape planes. Few edges
+ * are borders, few that are bent are split, and few turn as those of boxes do. */
+#define RIM_SHARE   0.1
 #define IN_PLANE    (1 * DEGREE)
 #define PLANE_SHARE 0.45
 #define BENT        (2 * DEGREE)
@@ -32,7 +33,7 @@ enum { WIDENINGS = 2 };
 
 /* What is known of what hangs together. */
 typedef struct component {
-    size_t triangles, in_plane, edges, bent, split, steep, far_off[FORM_ROUNDS];
+    size_t triangles, in_plane, edges, rims, bent, split, steep, far_off[FORM_ROUNDS];
     bool   no; /* without normals of its own, or with triangles in a plane of flat pieces */
 } component;
 
@@ -138,6 +139,7 @@ static void measure_edge(component *to, const rounding *r, const half_edge *halv
     double normals[2][3], turn, length;
     for (size_t k = 0; k < count; k++)
         to->no = to->no || !r->parts[halves[k].primitive].own_normals || *plane_of(r, &halves[k]) != NOWHERE;
+    to->rims += count != 2;
     if (count != 2)
         return;
     for (int k = 0; k < 2; k++) {
@@ -171,7 +173,8 @@ static void measure_edge(component *to, const rounding *r, const half_edge *halv
 static uint32_t rounds_of(const component *c)
 {
     if (c->no || c->triangles < FORM_TRIANGLES_LEAST || (double)c->in_plane > PLANE_SHARE * (double)c->triangles ||
-        (double)c->split > SPLIT_SHARE * (double)c->bent || (double)c->steep > STEEP_SHARE * (double)c->edges)
+        (double)c->rims > RIM_SHARE * (double)c->edges || (double)c->split > SPLIT_SHARE * (double)c->bent ||
+        (double)c->steep > STEEP_SHARE * (double)c->edges)
         return 0;
     uint32_t rounds = 0;
     while (rounds < FORM_ROUNDS &&
