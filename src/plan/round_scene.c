@@ -77,7 +77,7 @@ static lmn_status round_one(round_mesh *to, const mesh *m, double crease_angle, 
     mesh_release(&to->made);
     to->known = false;
     lmn_status status = mesh_round(&to->made, m, &options, error);
-    if (status == LMN_OK && to->made.primitive_count) {
+    if (status == LMN_OK && to->made.primitive_count && !forms) { /* which have no creases that are said */
         mesh_release(&to->made);
         status = find_sharp(&options, m, error);
         if (status == LMN_OK)

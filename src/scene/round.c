@@ -634,6 +634,26 @@ static lmn_status halve(rounding *r, size_t *left, size_t *added, lmn_error *err
     return status;
 }
 
+/* `*changed`: anything was halved. */
+static lmn_status halve_in_rounds(rounding *r, size_t left, bool *changed, lmn_error *error)
+{
+    size_t     added = 1;
+    lmn_status status = list_mesh(r, error);
+    if (status == LMN_OK)
+        status = round_planes_find(r, error);
+    if (status == LMN_OK)
+        status = round_form_find(r, error);
+    for (int k = 0; k < ROUNDS && status == LMN_OK && added; k++) {
+        status = halve(r, &left, &added, error);
+        *changed = *changed || added;
+        if (status == LMN_OK && added && k + 1 < ROUNDS)
+            status = list_mesh(r, error);
+        if (status == LMN_OK && added && k < FORM_ROUNDS && !round_form_shade(r))
+            status = error_memory(error);
+    }
+    return status;
+}
+
 static lmn_status give(mesh *out, const mesh *m, rounding *r, lmn_error *error)
 {
     primitive *all = mem_calloc(r->part_count + 1, sizeof *all);
@@ -672,7 +692,6 @@ lmn_status mesh_round(mesh *out, const mesh *m, const round_options *options, lm
 {
     rounding   r = {.part_count = m->primitive_count, .forms_only = options->forms_only};
     box3       box = box3_empty();
-    size_t     left = options->most_vertices, added = 0;
     lmn_status status = LMN_OK;
     *out = (mesh){.name = NULL};
     if (options->forms_only && !may_have_forms(m))
@@ -692,21 +711,8 @@ lmn_status mesh_round(mesh *out, const mesh *m, const round_options *options, lm
     if (status == LMN_OK)
         status = say_all_edges(&r, options, error);
     bool changed = false;
-    for (int k = 0; k < ROUNDS && status == LMN_OK && (k == 0 || added) && r.tolerance > 0; k++) {
-        status = list_mesh(&r, error);
-        if (status == LMN_OK && k == 0)
-            status = round_planes_find(&r, error);
-        if (status == LMN_OK && k == 0)
-            status = round_form_find(&r, error);
-        if (status == LMN_OK)
-            status = halve(&r, &left, &added, error);
-        if (status == LMN_OK && added && k < FORM_ROUNDS) {
-            status = list_mesh(&r, error);
-            if (status == LMN_OK && !round_form_shade(&r))
-                status = error_memory(error);
-        }
-        changed = changed || added;
-    }
+    if (status == LMN_OK && r.tolerance > 0)
+        status = halve_in_rounds(&r, options->most_vertices, &changed, error);
     if (status == LMN_OK && changed)
         status = give(out, m, &r, error);
     for (size_t i = 0; r.parts && i < r.part_count; i++) {

@@ -319,6 +319,34 @@ static void others_keep_their_vertices(void **state)
     }
 }
 
+/* Low-poly on purpose: each face has a normal of its own. */
+static void facets_that_are_meant_stay(void **state)
+{
+    (void)state;
+    cage    *c = ear(0.03, 0);
+    vec3    *positions = malloc(CORNERS * sizeof *positions), *normals = malloc(CORNERS * sizeof *normals);
+    uint32_t indices[CORNERS];
+    for (uint32_t i = 0; i < CORNERS; i++) {
+        double n[3];
+        face_of(n, &c->p, i);
+        assert_true(vector3_normalise(n));
+        positions[i] = c->positions[c->indices[i]];
+        normals[i] = (vec3){(float)n[0], (float)n[1], (float)n[2]};
+        indices[i] = i;
+    }
+    primitive p = {.vertex_count = CORNERS,
+                   .index_count = CORNERS,
+                   .positions = positions,
+                   .normals = normals,
+                   .indices = indices,
+                   .bounds = c->p.bounds};
+    mesh      from = {.primitives = &p, .primitive_count = 1}, m = rounded(&from);
+    assert_int_equal(m.primitive_count, 0);
+    free(normals);
+    free(positions);
+    free(c);
+}
+
 /* Cages are made round alone if nothing else is to be; where they are not coarse they are no cages. */
 static void forms_are_made_alone(void **state)
 {
@@ -386,7 +414,8 @@ int main(void)
         cmocka_unit_test(cages_become_smooth),        cmocka_unit_test(cages_keep_their_size),
         cmocka_unit_test(cages_have_no_creases),      cmocka_unit_test(morphs_go_along),
         cmocka_unit_test(others_keep_their_vertices), cmocka_unit_test(forms_are_made_alone),
-        cmocka_unit_test(limits_leave_cages_whole),   cmocka_unit_test(without_memory_it_says_so),
+        cmocka_unit_test(facets_that_are_meant_stay), cmocka_unit_test(limits_leave_cages_whole),
+        cmocka_unit_test(without_memory_it_says_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
