@@ -9,6 +9,8 @@ extern const kind kind_scene;
 enum { LIGHTS_MAX = 8 };
 
 typedef enum light_source { LIGHTS_STUDIO, LIGHTS_FILE } light_source;
+/* Which coarse meshes are drawn curved: src/plan/round_scene.h. */
+typedef enum round_kind { ROUND_NONE, ROUND_ALL, ROUND_FORMS } round_kind;
 /* Which tones are drawn as paper and as black: src/plan/tone_range.h. */
 typedef enum tone_range_kind { TONE_RANGE_NONE, TONE_RANGE_AUTO } tone_range_kind;
 /* What a model stands on: src/plan/ground.h. */
@@ -18,8 +20,7 @@ typedef enum ground_kind { GROUND_NONE, GROUND_CONTACT, GROUND_CAST } ground_kin
 typedef struct scene_values {
     direction   light_direction;
     float       fill, rim, crease_angle;
-    bool        round; /* src/plan/round_scene.h */
-    int32_t     lights;
+    int32_t     round, lights;
     float       light_scale;
     bool        shadows;
     float       shadow_softness, occlusion, occlusion_radius;

@@ -4,6 +4,7 @@
 #include "cut/cut.h"
 
 static const char *const source_names[] = {"studio", "file", NULL};
+static const char *const round_names[] = {"false", "true", "forms", NULL};
 static const char *const tone_range_names[] = {"none", "auto", NULL};
 static const char *const ground_names[] = {"none", "contact", "cast", NULL};
 
@@ -25,9 +26,10 @@ static const param params[] = {
                            "lifts shaded borders off what is beside them, as reflected light does."),
     PARAM_FLOAT_ROW(scene_values, crease_angle, .def = 30, .min = 0, .max = 180, .unit = UNIT_DEGREES, .cpu_only = true,
                     .doc = "Faces that meet at less are smoothed where a model brings no normals."),
-    PARAM_BOOL_ROW(scene_values, round, .def = 0, .cpu_only = true,
-                   .doc = "Coarse meshes are drawn as the curved surfaces that their normals tell of, outlines "
-                          "included; flat faces and sharp edges stay."),
+    PARAM_ENUM_ROW(scene_values, round, .names = round_names, .cpu_only = true,
+                   .doc = "true: coarse meshes are drawn as the curved surfaces that their normals tell of, outlines "
+                          "included; flat faces and sharp edges stay. forms: only cages of heads, figures and the like "
+                          "that are shaded smooth all over; what is constructed keeps its facets."),
     PARAM_ENUM_ROW(scene_values, lights, .names = source_names, .cpu_only = true,
                    .doc = "studio: the lights above; file: the model's lights, if it has any."),
     PARAM_FLOAT_ROW(scene_values, light_scale, .def = 1, .min = 0, .max = 1000, .soft_max = 4, .cpu_only = true,

@@ -102,6 +102,15 @@ char *value_text_exact(json_t *json)
     return NULL;
 }
 
+/* A choice that was yes or no once has these among its names, and files go on saying them without quotes. */
+static bool names_truth(const param *p)
+{
+    for (size_t i = 0; p->names[i]; i++)
+        if (strcmp(p->names[i], "true") == 0)
+            return true;
+    return false;
+}
+
 static const char *wanted_type(const param *p)
 {
     switch (p->type) {
@@ -112,7 +121,7 @@ static const char *wanted_type(const param *p)
                                : "a number of points or a length as \"0.5mm\"";
         return p->can_auto ? "a number or \"auto\"" : "a number";
     case PARAM_BOOL: return "true or false";
-    case PARAM_ENUM: return "a name in quotes";
+    case PARAM_ENUM: return names_truth(p) ? "true, false or a name in quotes" : "a name in quotes";
     case PARAM_COLOUR: return "a colour in quotes";
     case PARAM_DIRECTION: return "an array of three numbers";
     case PARAM_PALETTE: return "an array of colours";
@@ -128,7 +137,7 @@ static bool has_type(const param *p, const json_t *json)
     case PARAM_INT: return json_is_integer(json);
     case PARAM_FLOAT: return json_is_number(json) || ((p->can_auto || p->unit == UNIT_PT) && json_is_string(json));
     case PARAM_BOOL: return json_is_boolean(json);
-    case PARAM_ENUM:
+    case PARAM_ENUM: return json_is_string(json) || (json_is_boolean(json) && names_truth(p));
     case PARAM_TEXT:
     case PARAM_COLOUR: return json_is_string(json);
     case PARAM_DIRECTION: return json_is_string(json) || json_array_size(json) == 3;
@@ -242,6 +251,9 @@ json_t *value_json(const param *p, const void *values)
     case PARAM_FLOAT: return number_of_text(printed);
     case PARAM_BOOL: return json_boolean(*(const bool *)param_field(p, values));
     case PARAM_ENUM:
+        if (names_truth(p) && (strcmp(printed, "true") == 0 || strcmp(printed, "false") == 0))
+            return json_boolean(printed[0] == 't');
+        return json_string(printed);
     case PARAM_TEXT:
     case PARAM_COLOUR: return json_string(printed);
     case PARAM_DIRECTION: return array_of_text(printed, true);

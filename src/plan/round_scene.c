@@ -70,13 +70,14 @@ static lmn_status find_sharp(round_options *out, const mesh *m, lmn_error *error
     return sharp ? LMN_OK : error_memory(error);
 }
 
-static lmn_status round_one(round_mesh *to, const mesh *m, double crease_angle, size_t *left, lmn_error *error)
+static lmn_status round_one(round_mesh *to, const mesh *m, double crease_angle, bool forms, size_t *left,
+                            lmn_error *error)
 {
-    round_options options = {crease_angle, TOLERANCE, *left, NULL, 0};
+    round_options options = {crease_angle, TOLERANCE, *left, forms, NULL, 0};
     mesh_release(&to->made);
     to->known = false;
     lmn_status status = mesh_round(&to->made, m, &options, error);
-    if (status == LMN_OK && to->made.primitive_count) {
+    if (status == LMN_OK && to->made.primitive_count && !forms) { /* which have no creases that are said */
         mesh_release(&to->made);
         status = find_sharp(&options, m, error);
         if (status == LMN_OK)
@@ -131,7 +132,7 @@ static lmn_status round_all(round_scene *r, const lmn_scene *scene, lmn_error *e
         if (!drawn[i] || !has_own_normals(&scene->meshes[i]))
             mesh_release(&to->made);
         else if (!to->known || to->revision != scene->meshes[i].revision || to->topology != scene->meshes[i].topology)
-            status = round_one(to, &scene->meshes[i], r->crease_angle, &left, error);
+            status = round_one(to, &scene->meshes[i], r->crease_angle, r->forms, &left, error);
     }
     mem_free(drawn);
     return status;
@@ -202,9 +203,10 @@ lmn_status round_scene_find(const lmn_scene **out, round_scene *r, const lmn_sce
     const scene_values *v = look->wide[KIND_SCENE].values;
     const double        crease = (double)v->crease_angle * (3.14159265358979323846 / 180);
     *out = scene;
-    if (!v->round)
+    if (v->round == ROUND_NONE)
         return LMN_OK;
-    bool same = r->identity == scene->identity && r->crease_angle == crease;
+    const bool forms = v->round == ROUND_FORMS;
+    bool       same = r->identity == scene->identity && r->crease_angle == crease && r->forms == forms;
     if (!same)
         forget(r);
     if (same && r->revision == scene->revision) {
@@ -213,6 +215,7 @@ lmn_status round_scene_find(const lmn_scene **out, round_scene *r, const lmn_sce
     }
     release_copy(r);
     r->crease_angle = crease;
+    r->forms = forms;
     lmn_status status = round_all(r, scene, error);
     if (status == LMN_OK)
         status = make_copy(r, scene, error);

@@ -10,6 +10,7 @@ typedef struct round_scene {
     lmn_scene          scene; /* the last one, with round meshes instead of coarse ones; all else is borrowed */
     uint64_t           identity, revision;
     double             crease_angle;
+    bool               forms;  /* alone */
     struct round_mesh *meshes; /* one for each of the scene */
     size_t             count, room;
 } round_scene;

@@ -11,9 +11,7 @@
 #include "scene/mesh.h"
 #include "scene/round_private.h"
 
-enum { ROUNDS = 4, WHOLE = -1 };
-/* Of edge_visibility. */
-enum { SILHOUETTE = 1, HARD = 2 };
+enum { ROUNDS = 4, WHOLE = -1, SILHOUETTE = ROUND_SILHOUETTE, HARD = ROUND_HARD };
 
 static vec3 vec_of(const double p[3])
 {
@@ -132,10 +130,13 @@ static void put_place(vec3 out[2], vec3 a, vec3 b)
     out[1] = turned ? from : to;
 }
 
-static uint8_t *say_edges(const primitive *p, const vec3 (*places)[2], size_t count)
+/* Where free forms alone are round, all else is judged by whoever draws it. */
+static uint8_t *say_edges(const primitive *p, const vec3 (*places)[2], size_t count, bool forms_only)
 {
     uint8_t *out = mem_alloc((size_t)p->index_count + 1);
-    for (uint32_t c = 0; out && c < p->index_count; c++) {
+    if (out && forms_only)
+        memset(out, ROUND_NOTHING, p->index_count);
+    for (uint32_t c = 0; out && !forms_only && c < p->index_count; c++) {
         vec3 own[2];
         put_place(own, p->positions[p->indices[c]], p->positions[p->indices[next_corner(c)]]);
         out[c] = bsearch(own, places, count, sizeof own, compare_places) ? HARD : SILHOUETTE;
@@ -155,7 +156,8 @@ static lmn_status say_all_edges(rounding *r, const round_options *options, lmn_e
     for (size_t i = 0; i < r->part_count && good; i++) {
         primitive *p = &r->parts[i].made;
         if (p->indices && !p->edges.values)
-            good = (p->edges.values = say_edges(p, (const vec3(*)[2])places, options->sharp_count)) != NULL;
+            good = (p->edges.values =
+                        say_edges(p, (const vec3(*)[2])places, options->sharp_count, options->forms_only)) != NULL;
     }
     mem_free(places);
     return good ? LMN_OK : error_memory(error);
@@ -284,7 +286,7 @@ static round_side side_of(const rounding *r, const half_edge *h)
     vector3_normalise(side.face);
     vertices_of(r, h, v);
     uint32_t plane = r->parts[h->primitive].planes[h->corner / 3];
-    side.plane = plane != NOWHERE;
+    side.plane = is_plane(plane);
     if (side.plane)
         vector3_copy(side.face, r->planes[plane]);
     for (int k = 0; k < 2; k++) {
@@ -309,6 +311,17 @@ static round_edge edge_of(const rounding *r, const half_edge *halves, size_t cou
         point_of(ends[k], p->positions[v[k]]);
     round_side one = side_of(r, &halves[0]), other = side_of(r, &halves[count > 1]);
     return round_edge_of((const double(*)[3])ends, &one, count > 1 ? &other : NULL);
+}
+
+/* Is the edge halved, and where? Free forms say themselves for how many rounds; where, comes later. */
+static bool is_halved(const rounding *r, const half_edge *halves, size_t count, round_edge *edge)
+{
+    uint32_t plane = r->parts[halves->primitive].planes[halves->corner / 3];
+    vector3_set(edge->middle, 0, 0, 0);
+    if (is_form(plane) || r->forms_only)
+        return is_form_to_halve(plane);
+    *edge = edge_of(r, halves, count);
+    return edge->distance > r->tolerance;
 }
 
 static size_t sides_at(const rounding *r, size_t first)
@@ -451,11 +464,12 @@ static void halve_side(rounding *r, const half_edge *halves, size_t at, const ro
 /* How many vertices a round adds at most; counts them per primitive in `more`. */
 static size_t count_middles(const rounding *r, size_t *more)
 {
-    size_t total = 0;
+    size_t     total = 0;
+    round_edge edge;
     memset(more, 0, r->part_count * sizeof *more);
     for (size_t i = 0, sides; i < r->half_count; i += sides) {
         sides = sides_at(r, i);
-        if (!(edge_of(r, &r->halves[i], sides).distance > r->tolerance))
+        if (!is_halved(r, &r->halves[i], sides, &edge))
             continue;
         for (size_t k = 0; k < sides; k++)
             more[r->halves[i + k].primitive]++;
@@ -476,8 +490,8 @@ static lmn_status put_middles(rounding *r, const size_t *more, lmn_error *error)
     }
     for (size_t i = 0, sides; i < r->half_count; i += sides) {
         sides = sides_at(r, i);
-        round_edge edge = edge_of(r, &r->halves[i], sides);
-        if (!(edge.distance > r->tolerance))
+        round_edge edge;
+        if (!is_halved(r, &r->halves[i], sides, &edge))
             continue;
         for (size_t k = 0; k < sides; k++)
             halve_side(r, &r->halves[i], k, &edge);
@@ -564,7 +578,7 @@ static lmn_status cut_triangles(growing *g, lmn_error *error)
         return error_memory(error);
     }
     for (uint32_t c = 0; c < p->index_count; c += 3) {
-        to.plane = g->planes[c / 3];
+        to.plane = plane_in_next_round(g->planes[c / 3]);
         cut_triangle(&to, p, &p->indices[c], &g->middles[c], &p->edges.values[c]);
     }
     mem_free(p->indices);
@@ -607,6 +621,8 @@ static lmn_status halve(rounding *r, size_t *left, size_t *added, lmn_error *err
     if (*added) {
         *left -= *added;
         status = put_middles(r, more, error);
+        if (status == LMN_OK && !round_form_halve(r))
+            status = error_memory(error);
         for (size_t i = 0; i < r->part_count; i++) {
             if (status == LMN_OK)
                 status = cut_triangles(&r->parts[i], error);
@@ -615,6 +631,26 @@ static lmn_status halve(rounding *r, size_t *left, size_t *added, lmn_error *err
         }
     }
     mem_free(more);
+    return status;
+}
+
+/* `*changed`: anything was halved. */
+static lmn_status halve_in_rounds(rounding *r, size_t left, bool *changed, lmn_error *error)
+{
+    size_t     added = 1;
+    lmn_status status = list_mesh(r, error);
+    if (status == LMN_OK)
+        status = round_planes_find(r, error);
+    if (status == LMN_OK)
+        status = round_form_find(r, error);
+    for (int k = 0; k < ROUNDS && status == LMN_OK && added; k++) {
+        status = halve(r, &left, &added, error);
+        *changed = *changed || added;
+        if (status == LMN_OK && added && k + 1 < ROUNDS)
+            status = list_mesh(r, error);
+        if (status == LMN_OK && added && k < FORM_ROUNDS && !round_form_shade(r))
+            status = error_memory(error);
+    }
     return status;
 }
 
@@ -632,6 +668,7 @@ static lmn_status give(mesh *out, const mesh *m, rounding *r, lmn_error *error)
     out->morph_weight_count = m->morph_weight_count;
     for (size_t i = 0; i < r->part_count; i++) {
         primitive *p = &r->parts[i].made;
+        p->bounds = box3_empty();
         for (uint32_t v = 0; v < p->vertex_count; v++)
             p->bounds = box3_with_point(p->bounds, p->positions[v]);
         all[i] = *p;
@@ -642,19 +679,31 @@ static lmn_status give(mesh *out, const mesh *m, rounding *r, lmn_error *error)
     return LMN_OK;
 }
 
+/* Free forms are shaded by their file, and are no handful of triangles. */
+static bool may_have_forms(const mesh *m)
+{
+    size_t corners = 0;
+    for (size_t i = 0; i < m->primitive_count; i++)
+        corners += m->primitives[i].normals ? m->primitives[i].index_count : 0;
+    return corners / 3 >= FORM_TRIANGLES_LEAST;
+}
+
 lmn_status mesh_round(mesh *out, const mesh *m, const round_options *options, lmn_error *error)
 {
-    rounding   r = {.part_count = m->primitive_count};
+    rounding   r = {.part_count = m->primitive_count, .forms_only = options->forms_only};
     box3       box = box3_empty();
-    size_t     left = options->most_vertices, added = 0;
     lmn_status status = LMN_OK;
     *out = (mesh){.name = NULL};
+    if (options->forms_only && !may_have_forms(m))
+        return LMN_OK;
     r.parts = mem_calloc(m->primitive_count + 1, sizeof *r.parts);
     if (!r.parts)
         status = error_memory(error);
     for (size_t i = 0; i < m->primitive_count && status == LMN_OK; i++) {
         box = box3_union(box, m->primitives[i].bounds);
         status = copy_primitive(&r.parts[i].made, &m->primitives[i], options->crease_angle, error);
+        r.parts[i].own_normals = m->primitives[i].normals != NULL;
+        r.parts[i].own_edges = m->primitives[i].edges.values != NULL;
     }
     r.tolerance = options->tolerance * (m->primitive_count ? box3_diagonal(box) : 0);
     if (status == LMN_OK)
@@ -662,14 +711,8 @@ lmn_status mesh_round(mesh *out, const mesh *m, const round_options *options, lm
     if (status == LMN_OK)
         status = say_all_edges(&r, options, error);
     bool changed = false;
-    for (int k = 0; k < ROUNDS && status == LMN_OK && (k == 0 || added) && r.tolerance > 0; k++) {
-        status = list_mesh(&r, error);
-        if (status == LMN_OK && k == 0)
-            status = round_planes_find(&r, error);
-        if (status == LMN_OK)
-            status = halve(&r, &left, &added, error);
-        changed = changed || added;
-    }
+    if (status == LMN_OK && r.tolerance > 0)
+        status = halve_in_rounds(&r, options->most_vertices, &changed, error);
     if (status == LMN_OK && changed)
         status = give(out, m, &r, error);
     for (size_t i = 0; r.parts && i < r.part_count; i++) {

@@ -2,7 +2,8 @@
  * halved until they follow the bend, as curved PN triangles do (A. Vlachos, J. Peters, C. Boyd, J. L. Mitchell: Curved
  * PN Triangles, I3D 2001, section 3.1). There triangles with different normals at a place part; here what is done to an
  * edge is decided once, from both its sides, and creases bend along themselves, so that nothing parts. Normals go on as
- * they did over the coarse triangle: what looked smooth looks the same. */
+ * they did over the coarse triangle: what looked smooth looks the same. Free forms (round_form.c), whose normals are
+ * none that curves could follow, are subdivided instead. */
 #ifndef LIMNER_SCENE_ROUND_H
 #define LIMNER_SCENE_ROUND_H
 
@@ -12,14 +13,16 @@ typedef struct round_options {
     double crease_angle;    /* radians; of primitives without normals */
     double tolerance;       /* how far edges may lie off the surface, of the mesh's diagonal */
     size_t most_vertices;   /* that are added; the last halving that would add more is left out */
+    bool   forms_only;      /* what is no free form stays as it is */
     const vec3 (*sharp)[2]; /* ends of edges that are creases, exactly where vertices of the mesh are */
     size_t sharp_count;
 } round_options;
 
 /* `out` becomes the mesh that is drawn instead, with normals and triangles of its own, revision 0; vertices that were
- * there keep their places and order. It says of its edges that they may be outlines, or are creases where edges were
- * sharp, unless the mesh says more itself. Without primitives: the mesh is as round as it can be. Released with
- * mesh_release. Errors: LMN_MEMORY, LMN_LIMIT. */
+ * there keep their order, and but for free forms their places. It says of its edges that they may be outlines, or are
+ * creases where edges were sharp, unless the mesh says more itself; with `forms_only` nothing but that edges within
+ * free forms are outlines at most. Without primitives: the mesh is as round as it can
+ * be. Released with mesh_release. Errors: LMN_MEMORY, LMN_LIMIT. */
 lmn_status mesh_round(mesh *out, const mesh *m, const round_options *options, lmn_error *error);
 
 /* --- one edge, for tests -------------------------------------------------------------------------------- */

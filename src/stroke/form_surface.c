@@ -24,6 +24,11 @@ static bool is_sampled(const edge_mesh *m)
     return m->sampling.sampled && !m->refinement;
 }
 
+static bool is_cap(const edge_mesh *m, uint32_t face)
+{
+    return m->cap_count && m->materials && m->materials[face] <= EDGE_CAP_MATERIAL(0);
+}
+
 /* Half-edges over which the surface goes on smoothly. */
 static lmn_status pair_smooth(form_knots *s, const edge_mesh *m, lmn_error *error)
 {
@@ -39,8 +44,10 @@ static lmn_status pair_smooth(form_knots *s, const edge_mesh *m, lmn_error *erro
     uint32_t ends =
         EDGE_BORDER | EDGE_TWISTED | (sampled ? 0 : EDGE_CREASE); /* normals of samplings are means anyway */
     for (uint32_t h = 0; h < 3 * m->face_count; h++)
-        if (s->opposite[h] != NO_HALF &&
-            !sampled) { /* sharper than a right angle is no surface that goes on, whatever the file says */
+        if (s->opposite[h] != NO_HALF && is_cap(m, h / 3) != is_cap(m, s->opposite[h] / 3)) {
+            part_edge(s, h); /* a section is no surface that was sampled */
+        } else if (s->opposite[h] != NO_HALF &&
+                   !sampled) { /* sharper than a right angle is no surface that goes on, whatever the file says */
             vec3 a = m->normals[h / 3], b = m->normals[s->opposite[h] / 3];
             if (a.x * b.x + a.y * b.y + a.z * b.z < 0)
                 part_edge(s, h);

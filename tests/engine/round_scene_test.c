@@ -168,6 +168,30 @@ static void what_is_kept_follows_what_is_drawn(void **state)
     lmn_scene_destroy(&other);
 }
 
+/* What is constructed is no free form: with "forms" it keeps its facets, whatever was drawn before. */
+static void forms_alone_are_another_scene(void **state)
+{
+    static const bool round[] = {true, false, true, false};
+    uint32_t          mesh;
+    lmn_scene        *s = scene_of(1, &mesh);
+    lmn_draw_desc     desc = LMN_DRAW_DESC_INIT;
+    desc.width = desc.height = SIDE;
+    desc.view = LMN_VIEW_FRONT;
+    desc.orthographic = true;
+    for (size_t i = 0; i < sizeof round / sizeof *round; i++) {
+        picture      p;
+        lmn_drawing *drawing = NULL;
+        lmn_look    *look = look_of(true);
+        DO(lmn_look_set(look, "scene.round", round[i] ? "true" : "forms", &error));
+        DO(lmn_draw(&drawing, *state, s, look, &desc, &error));
+        memcpy(p.pixels, lmn_drawing_pixels(drawing, NULL, NULL), sizeof p.pixels);
+        assert_true(round[i] ? fabs(fullness(&p) - 1) < 0.015 : fullness(&p) < 0.975);
+        lmn_drawing_destroy(&drawing);
+        lmn_look_destroy(&look);
+    }
+    lmn_scene_destroy(&s);
+}
+
 /* Meshes of files all have the same revision: what is kept of one file is nothing of the next. */
 static void files_do_not_mix(void **state)
 {
@@ -240,9 +264,8 @@ static void outlines_are_round_in_vectors(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coarse_balls_cover_discs),
-        cmocka_unit_test(what_is_kept_follows_what_is_drawn),
-        cmocka_unit_test(files_do_not_mix),
+        cmocka_unit_test(coarse_balls_cover_discs),      cmocka_unit_test(what_is_kept_follows_what_is_drawn),
+        cmocka_unit_test(forms_alone_are_another_scene), cmocka_unit_test(files_do_not_mix),
         cmocka_unit_test(outlines_are_round_in_vectors),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -77,7 +77,7 @@ static void test_wrong_files(void **state)
         {"{\"version\": 1,\n \"rules\": [}", "not valid JSON", "", 2, 12},
         {"", "not valid JSON", "", -1, -1},
         {"[]", "must be an object", "", 1, 1},
-        {"{\"rules\": []}", "'version' is missing", "\"version\": 2", 1, 1},
+        {"{\"rules\": [{}]}", "'version' is missing", "\"version\": 2", 1, 1},
         {"{\"version\": 3}", "version is 3", "newer", 1, 2},
         {"{\"version\": \"1\"}", "whole number", "", 1, 2},
         {"{\"version\": 1, \"version\": 1}", "not valid JSON: duplicate", "", 1, -1},
@@ -196,6 +196,35 @@ static void test_round_trip(void **state)
     lmn_look_destroy(&look);
     mem_free(first);
     mem_free(second);
+}
+
+/* A choice that was yes or no takes true and false as it did, and prints them so; others take no such thing. */
+static void test_truth_among_choices(void **state)
+{
+    (void)state;
+    static const char *const says[][2] = {{"true", "\"round\": true"},
+                                          {"\"true\"", "\"round\": true"},
+                                          {"false", NULL},
+                                          {"\"forms\"", "\"round\": \"forms\""}};
+    char                     json[128];
+    for (size_t i = 0; i < PARAM_COUNT(says); i++) {
+        snprintf(json, sizeof json, "{\"version\": 2, \"scene\": {\"round\": %s}, \"rules\": [{}]}", says[i][0]);
+        lmn_look *look = parse(json);
+        char     *printed = lmn_look_json(look);
+        if (says[i][1])
+            assert_non_null(strstr(printed, says[i][1]));
+        else
+            assert_null(strstr(printed, "round"));
+        mem_free(printed);
+        lmn_look_destroy(&look);
+    }
+    static const char *const wrong[] = {"\"round\": 1", "\"round\": \"yes\"", "\"ground\": true"};
+    for (size_t i = 0; i < PARAM_COUNT(wrong); i++) {
+        lmn_look *look = NULL;
+        snprintf(json, sizeof json, "{\"version\": 2, \"scene\": {%s}, \"rules\": [{}]}", wrong[i]);
+        assert_int_not_equal(lmn_look_parse(&look, json, "wrong", NULL), LMN_OK);
+        assert_null(look);
+    }
 }
 
 /* Every parameter of every technique, set to something else than its default, survives print and parse. */
@@ -500,13 +529,21 @@ static void test_damage(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_parse),      cmocka_unit_test(test_wrong_files),
-        cmocka_unit_test(test_load),       cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_round_trip), cmocka_unit_test(test_every_parameter_round_trips),
-        cmocka_unit_test(test_versions),   cmocka_unit_test(test_set),
-        cmocka_unit_test(test_exchange),   cmocka_unit_test(test_set_refused),
-        cmocka_unit_test(test_reference),  cmocka_unit_test(test_tables),
-        cmocka_unit_test(test_memory),     cmocka_unit_test(test_damage),
+        cmocka_unit_test(test_parse),
+        cmocka_unit_test(test_wrong_files),
+        cmocka_unit_test(test_load),
+        cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_every_parameter_round_trips),
+        cmocka_unit_test(test_truth_among_choices),
+        cmocka_unit_test(test_versions),
+        cmocka_unit_test(test_set),
+        cmocka_unit_test(test_exchange),
+        cmocka_unit_test(test_set_refused),
+        cmocka_unit_test(test_reference),
+        cmocka_unit_test(test_tables),
+        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_damage),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

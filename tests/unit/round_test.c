@@ -269,7 +269,7 @@ static void drums_keep_their_rims(void **state)
     (void)state;
     for (int made = 0; made < 2; made++) {
         coarse       *c = drum(16, !made);
-        round_options options = {PI / 6, 1.0 / 2000, 100000, NULL, 0};
+        round_options options = {PI / 6, 1.0 / 2000, 100000, false, NULL, 0};
         vec3          rims[32][2];
         for (uint32_t k = 0; k < 32; k++) {
             rims[k][0] = c->positions[k];
@@ -448,7 +448,7 @@ static void without_memory_it_says_so(void **state)
     coarse *c = drum(16, false);
     long    n = 1;
     for (lmn_status status = LMN_MEMORY; status != LMN_OK; n++) {
-        round_options options = {PI / 6, 1.0 / 2000, 100000, NULL, 0};
+        round_options options = {PI / 6, 1.0 / 2000, 100000, false, NULL, 0};
         mesh          m;
         mem_fail_at(n);
         status = mesh_round(&m, &c->m, &options, NULL);

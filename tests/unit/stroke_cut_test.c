@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "cut/cut.h"
 #include "pose/pose.h"
+#include "stroke/form_surface.h"
 #include "stroke/hatch.h"
 
 /* A box and a ball, a half of both cut away. */
@@ -169,10 +170,48 @@ static void what_is_hidden_has_lines(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* A cut face is no piece of a surface that is sampled: with normals that lean over to its rim it had outlines. */
+static void cut_faces_of_samplings_are_flat(void **state)
+{
+    (void)state;
+    lmn_scene *s = stroke_scene_begin();
+    add_ball(s, 0, 0, 0, 1, 240, 120);
+    assert_int_equal(scene_finish(s, "test", NULL), LMN_OK);
+    pose              at_rest;
+    cut               c;
+    const bool        spared[1] = {false};
+    stroke_scene      scene;
+    stroke_topologies kept = {NULL};
+    form_surface      surface;
+    uint32_t          caps = 0;
+    assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, NULL), LMN_OK);
+    assert_int_equal(cut_parse(&c, "x=0.13", (box3){{-1, -1, -1}, {1, 1, 1}}, NULL), LMN_OK);
+    stroke_section section = {&c, spared};
+    assert_int_equal(stroke_scene_create_keeping(&scene, &at_rest, NULL, 0.5, 0, &kept, &section, NULL), LMN_OK);
+    edge_mesh *m = &scene.meshes[0];
+    assert_non_null(m->materials);
+    m->sampling = (edge_sampling){true, 0.05f, 0.02f}; /* the ball's quads are too even to pass for one */
+    assert_int_equal(form_surface_make(&surface, m, false, NULL), LMN_OK);
+    for (uint32_t f = 0; f < m->face_count; f++) {
+        if (m->materials[f] > EDGE_CAP_MATERIAL(0))
+            continue;
+        caps++;
+        for (int k = 0; k < 3; k++)
+            assert_true(surface.calm_normals[surface.corners[f][k]].x > 0.999f);
+    }
+    assert_true(caps > 100);
+    form_surface_release(&surface);
+    stroke_scene_release(&scene);
+    stroke_topologies_release(&kept);
+    pose_release(&at_rest);
+    lmn_scene_destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(sections_leave_rims), cmocka_unit_test(what_is_gone_or_spared),
                                        cmocka_unit_test(areas_have_the_same_lines),
-                                       cmocka_unit_test(what_is_hidden_has_lines)};
+                                       cmocka_unit_test(what_is_hidden_has_lines),
+                                       cmocka_unit_test(cut_faces_of_samplings_are_flat)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
