@@ -264,7 +264,8 @@ static bool trace_line(flow_maker *m, const flow_position *seed, bool lonely)
     }
     bool   closed = first == END_LOOP, bounded[2] = {first == END_EDGE, second == END_EDGE};
     double across = (double)m->f->rooms[seed->triangle] < m->apart ? LEAST_NARROW : LEAST_BOUNDED;
-    double length = length_within(m, beyond), least = closed ? 2 : bounded[0] && bounded[1] ? across : lonely ? LEAST_LONELY : LEAST;
+    double length = length_within(m, beyond), free_end = lonely ? LEAST_LONELY : LEAST;
+    double least = closed ? 2 : bounded[0] && bounded[1] ? across : free_end;
     if (m->count < 2 || length < least * m->apart) {
         flow_grid_shorten(&m->grid, samples);
         return true;
@@ -316,7 +317,8 @@ static bool try_seed(flow_maker *m, flow_position *p, d3 like)
     if (flow_grid_is_near(&m->grid, &s, FREE * m->apart, 0) || !flow_direction(m->f, p, m->turn, like, &p->direction) ||
         hugs_an_edge(m, p))
         return true;
-    return trace_line(m, p, !flow_grid_is_near(&m->grid, &s, LONELY * m->apart, 0));
+    /* Whole strokes have a tone of their own: short ones would be hair. */
+    return trace_line(m, p, m->measures && !flow_grid_is_near(&m->grid, &s, LONELY * m->apart, 0));
 }
 
 /* --- gaps beside a line --------------------------------------------------------------------------------- */

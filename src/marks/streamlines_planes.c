@@ -102,7 +102,7 @@ static uint32_t leave(const flow_surface *f, uint32_t entered, d3 from, d3 way, 
 /* Does the surface turn over a side of a triangle, and on for so far, as much as an edge that is rounded a little? */
 static bool is_rounded_edge(const flow_surface *f, uint32_t half, double far)
 {
-    d3       before = flow_face_normal(f, half / 3), a = corner_at(f, half),
+    d3 before = flow_face_normal(f, half / 3), a = corner_at(f, half),
        along = minus(corner_at(f, next_corner(half)), a), at = d3_along(a, along, 0.5);
     d3       way = d3_unit(cross(along, before)), normal = before;
     uint32_t entered = f->across[half];

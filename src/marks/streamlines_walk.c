@@ -98,8 +98,8 @@ static const double ALONE = 0.5;
  * over into what is round, whose lines are to go on. */
 static double slant_at(const flow_surface *f, uint32_t triangle)
 {
-    return f->slant != 0 && f->planes[f->plane_of[triangle]].sure > ALONE && same_tensor(f, 3 * triangle, 3 * triangle + 1) &&
-                   same_tensor(f, 3 * triangle, 3 * triangle + 2)
+    return f->slant != 0 && f->planes[f->plane_of[triangle]].sure > ALONE &&
+                   same_tensor(f, 3 * triangle, 3 * triangle + 1) && same_tensor(f, 3 * triangle, 3 * triangle + 2)
                ? f->slant
                : 0;
 }

@@ -324,7 +324,7 @@ static lmn_scene *scene_of_bevelled(void)
     return s;
 }
 
-enum { BEVEL_SIDE = 400 };
+enum { BEVEL_SIDE = 800 };
 
 /* Where a place lies in a picture from above the front, without perspective. */
 #define HALF_HEIGHT 0.4
