@@ -309,6 +309,8 @@ double mark_flow_sparse(const mark_line *line, double distances, double sparse, 
 /* How much is left where the surface is seen edge-on: nothing up to this cosine, all from three times that. Lines there
  * would be a blot, and whether they are seen would be chance. What shall be black is so as far as its rim. */
 #define FLOW_GRAZING 0.05
+/* What lines cover that fill a face without room: more than all, as they are no longer evenly apart there. */
+#define FLOW_FILLED 2.0
 double mark_flow_grazing(double facing, double darkness);
 /* How much is left on a face that has room for so few distances of lines: nothing below half of `room`. */
 double mark_flow_room(double distances, double room);

@@ -301,7 +301,8 @@ static float flow_width(const pager *g, const marks *m, const mark_line *l, int 
                         : 0;
     cover = g->style->white ? fmin(cover, 1 - sparse) : fmax(cover, sparse);
     double roomy = mark_flow_room((double)e->room * across / scale, (double)g->style->room * (1 + l->set));
-    cover = roomy * cover + (1 - roomy) * (is_black(g->style, dark) != g->style->white && g->style->black > 0 ? 1 : 0);
+    cover = roomy * cover +
+            (1 - roomy) * (is_black(g->style, dark) != g->style->white && g->style->black > 0 ? FLOW_FILLED : 0);
     double low = least / (1 + 5 * (double)g->style->fade),
            thin = least > 0 ? fmin(fmax((cover - low) / (least - low), 0), 1) : 1;
     double to_end = (double)e->to_end * across / scale;

@@ -24,6 +24,8 @@ static const double ACROSS = 0.6;        /* where the field's arms change, strai
 static const double FREE = 0.76;         /* nearer to another line none begins */
 static const double TWO_FROM = 1.6;      /* a gap this wide takes a line */
 static const double LEAST = 5;           /* length of a line that ends at others */
+static const double LONELY = 1.5;        /* where nothing is nearer, */
+static const double LEAST_LONELY = 3;    /* a shorter one is better than a hole */
 static const double LEAST_BOUNDED = 0.7; /* and of one that runs from edge to edge, */
 static const double LEAST_NARROW = 0.3;  /* and of one across a face that is narrower than lines are apart */
 static const double HUG = 0.3;           /* nearer to an edge no line begins */
@@ -235,7 +237,7 @@ static double length_within(const flow_maker *m, const uint32_t beyond[2])
 }
 
 /* Walks both ways from a seed. A line that is too short is none, and leaves nothing in the grid. */
-static bool trace_line(flow_maker *m, const flow_position *seed)
+static bool trace_line(flow_maker *m, const flow_position *seed, bool lonely)
 {
     size_t   samples = m->grid.count;
     uint32_t line = (uint32_t)m->out->line_count;
@@ -262,7 +264,8 @@ static bool trace_line(flow_maker *m, const flow_position *seed)
     }
     bool   closed = first == END_LOOP, bounded[2] = {first == END_EDGE, second == END_EDGE};
     double across = (double)m->f->rooms[seed->triangle] < m->apart ? LEAST_NARROW : LEAST_BOUNDED;
-    double length = length_within(m, beyond), least = closed ? 2 : bounded[0] && bounded[1] ? across : LEAST;
+    double length = length_within(m, beyond), free_end = lonely ? LEAST_LONELY : LEAST;
+    double least = closed ? 2 : bounded[0] && bounded[1] ? across : free_end;
     if (m->count < 2 || length < least * m->apart) {
         flow_grid_shorten(&m->grid, samples);
         return true;
@@ -314,7 +317,8 @@ static bool try_seed(flow_maker *m, flow_position *p, d3 like)
     if (flow_grid_is_near(&m->grid, &s, FREE * m->apart, 0) || !flow_direction(m->f, p, m->turn, like, &p->direction) ||
         hugs_an_edge(m, p))
         return true;
-    return trace_line(m, p);
+    /* Whole strokes have a tone of their own: short ones would be hair. */
+    return trace_line(m, p, m->measures && !flow_grid_is_near(&m->grid, &s, LONELY * m->apart, 0));
 }
 
 /* --- gaps beside a line --------------------------------------------------------------------------------- */

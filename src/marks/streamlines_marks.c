@@ -224,12 +224,13 @@ static double to_end_of(const flow_line *line, const flow_point *p, double arc, 
 }
 
 /* How broad the face is; and a line from edge to edge has no more room than it is long, less where it would be a tick.
- */
+ * Not where the field alone ends: that is no face. */
 static float room_of(const flow_cutter *c, const flow_line *line, const flow_point *p, uint32_t at)
 {
     float room = c->surface->rooms[p[at].triangle];
-    return line->bounded[0] && line->bounded[1] && !line->closed ? fminf(room, (float)TICK * p[line->count - 1].arc)
-                                                                 : room;
+    bool  across = line->bounded[0] && line->bounded[1] && !line->closed && flow_is_at_crease(c->surface, &p[0]) &&
+                  flow_is_at_crease(c->surface, &p[line->count - 1]);
+    return across ? fminf(room, (float)TICK * p[line->count - 1].arc) : room;
 }
 
 /* A stroke: the points first … last of a line. */

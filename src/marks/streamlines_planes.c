@@ -9,9 +9,14 @@
 static const double FLAT = 0.99996;      /* cosine of half a degree */
 static const double SMOOTH = 0.94;       /* cosine of 20 degrees */
 static const double SMOOTH_MOST = 0.2;   /* fraction of its rim that goes on smoothly, at which a plane stays even */
+static const double TIGHT = 0.1;         /* of how wide a plane is: a rounding that narrow is an edge of it */
+static const double ROUNDED = 0.77;      /* cosine of 40 degrees, by which that turns */
+static const double WIDE = 1.0 / 2000;   /* of the whole surface */
 static const double ASIDE = 0.4;         /* on what stands upright, how much the way leans off upwards */
 static const double LEVEL = 0.3;         /* sine of a slope below which a face lies */
 static const double FEW = 3, ENOUGH = 9; /* distances of lines across half of a face: too few, enough to fade */
+
+enum { STEPS_MOST = 16 }; /* triangles across a rounding */
 
 /* Sums over the triangles of a plane: area, first and second moments. */
 typedef struct plane_sums {
@@ -68,8 +73,59 @@ static d3 darker_way(const plane_sums *s, d3 up)
     return d3_unit(d3_along(upwards, cross(n, upwards), ASIDE));
 }
 
-/* Where a plane goes over into something round, one cannot fade without the other. */
-static void add_rim(plane_sums *s, const flow_surface *f, uint32_t half)
+static d3 corner_at(const flow_surface *f, uint32_t corner)
+{
+    return of(f->surface->positions[f->surface->indices[corner]]);
+}
+
+static uint32_t next_corner(uint32_t half)
+{
+    return half % 3 == 2 ? half - 2 : half + 1;
+}
+
+/* The side by which a straight way through a triangle leaves it, which it entered by another one. */
+static uint32_t leave(const flow_surface *f, uint32_t entered, d3 from, d3 way, d3 normal, double *distance)
+{
+    uint32_t found = UINT32_MAX;
+    *distance = INFINITY;
+    for (uint32_t half = next_corner(entered); half != entered; half = next_corner(half)) {
+        d3     a = corner_at(f, half), out = cross(minus(corner_at(f, next_corner(half)), a), normal);
+        double speed = dot(way, out), to = speed > 0 ? fmax(dot(minus(a, from), out) / speed, 0) : INFINITY;
+        if (to < *distance) {
+            *distance = to;
+            found = half;
+        }
+    }
+    return found;
+}
+
+/* Does the surface turn over a side of a triangle, and on for so far, as much as an edge that is rounded a little? */
+static bool is_rounded_edge(const flow_surface *f, uint32_t half, double far)
+{
+    d3 before = flow_face_normal(f, half / 3), a = corner_at(f, half),
+       along = minus(corner_at(f, next_corner(half)), a), at = d3_along(a, along, 0.5);
+    d3       way = d3_unit(cross(along, before)), normal = before;
+    uint32_t entered = f->across[half];
+    for (int step = 0; step < STEPS_MOST && entered != UINT32_MAX; step++) {
+        double distance;
+        d3     next = flow_face_normal(f, entered / 3);
+        way = d3_unit(d3_along(way, d3_along(normal, next, 1), -dot(way, next) / (1 + fmax(dot(normal, next), -0.9))));
+        normal = next;
+        if (dot(normal, before) < ROUNDED)
+            return true;
+        uint32_t left = leave(f, entered, at, way, normal, &distance);
+        if (left == UINT32_MAX || distance > far)
+            return false;
+        far -= distance;
+        at = d3_along(at, way, distance);
+        entered = f->across[left];
+    }
+    return false;
+}
+
+/* Where a plane goes over into something round, one cannot fade without the other. Planes that are much smaller than
+ * all of the surface do not fade anyway. */
+static void add_rim(plane_sums *s, const flow_surface *f, uint32_t half, double whole)
 {
     const uint32_t *i = &f->surface->indices[3 * (size_t)(half / 3)];
     const vec3     *p = f->surface->positions;
@@ -78,7 +134,8 @@ static void add_rim(plane_sums *s, const flow_surface *f, uint32_t half)
     if (other != UINT32_MAX && f->plane_of[other / 3] == f->plane_of[half / 3])
         return;
     s->rim += length;
-    if (other != UINT32_MAX && dot(flow_face_normal(f, half / 3), flow_face_normal(f, other / 3)) > SMOOTH)
+    if (other != UINT32_MAX && dot(flow_face_normal(f, half / 3), flow_face_normal(f, other / 3)) > SMOOTH &&
+        !(s->area > WIDE * whole && is_rounded_edge(f, half, TIGHT * sqrt(s->area))))
         s->smooth += length;
 }
 
@@ -112,7 +169,7 @@ bool flow_planes_make(flow_surface *f)
 {
     uint32_t    count = f->surface->triangle_count;
     plane_sums *sums = mem_calloc(count, sizeof *sums);
-    double     *reach = mem_calloc(count, sizeof *reach);
+    double     *reach = mem_calloc(count, sizeof *reach), whole = 0;
     f->plane_of = mem_alloc((size_t)count * sizeof *f->plane_of);
     f->planes = mem_calloc(count, sizeof *f->planes);
     bool done = sums && reach && f->plane_of && f->planes;
@@ -120,8 +177,10 @@ bool flow_planes_make(flow_surface *f)
         group_planes(f, f->plane_of);
     for (uint32_t t = 0; t < count && done; t++)
         add_triangle(&sums[f->plane_of[t]], f, t);
+    for (uint32_t t = 0; t < count && done; t++)
+        whole += sums[t].area;
     for (uint32_t h = 0; h < 3 * count && done; h++)
-        add_rim(&sums[f->plane_of[h / 3]], f, h);
+        add_rim(&sums[f->plane_of[h / 3]], f, h, whole);
     for (uint32_t t = 0; t < count && done; t++) {
         const plane_sums *s = &sums[t];
         if (f->plane_of[t] != t || !(s->area > 0) || !(s->rim > 0))

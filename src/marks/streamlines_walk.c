@@ -91,11 +91,15 @@ static bool same_tensor(const flow_surface *f, uint32_t a, uint32_t b)
                   sizeof *f->field.tensors) == 0;
 }
 
-/* Directions of planes were chosen, one for all of it: nothing of the form asks for just these. */
+/* A plane of its own, of flow_plane's `sure`. */
+static const double ALONE = 0.5;
+
+/* Directions of planes were chosen, one for all of it: nothing of the form asks for just these, but where a plane goes
+ * over into what is round, whose lines are to go on. */
 static double slant_at(const flow_surface *f, uint32_t triangle)
 {
-    return f->slant != 0 && same_tensor(f, 3 * triangle, 3 * triangle + 1) &&
-                   same_tensor(f, 3 * triangle, 3 * triangle + 2)
+    return f->slant != 0 && f->planes[f->plane_of[triangle]].sure > ALONE &&
+                   same_tensor(f, 3 * triangle, 3 * triangle + 1) && same_tensor(f, 3 * triangle, 3 * triangle + 2)
                ? f->slant
                : 0;
 }

@@ -1,5 +1,6 @@
 #include "plan/round_scene.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -49,6 +50,17 @@ void round_scene_release(round_scene *r)
     *r = (round_scene){.meshes = NULL};
 }
 
+/* By how much a crease turns as a line: that of a whole chain, not of one edge; a narrow rounding as much as can be. */
+static float turn_of(const edge_mesh *m, const mesh_edge *e)
+{
+    const float most = 3.14159265f;
+    if (e->flags & EDGE_ROUNDED || e->face[1] == EDGE_NO_FACE)
+        return most;
+    vec3  n = m->normals[e->face[0]], o = m->normals[e->face[1]];
+    float cosine = n.x * o.x + n.y * o.y + n.z * o.z;
+    return e->turn > 0 ? e->turn : acosf(fminf(fmaxf(e->flags & EDGE_TWISTED ? -cosine : cosine, -1), 1));
+}
+
 /* Which edges are creases is judged where the mesh is as it was made. */
 static lmn_status find_sharp(round_options *out, const mesh *m, lmn_error *error)
 {
@@ -56,17 +68,17 @@ static lmn_status find_sharp(round_options *out, const mesh *m, lmn_error *error
     lmn_status status = edge_mesh_create(&edges, m, NULL, out->crease_angle, error);
     if (status != LMN_OK)
         return status;
-    vec3(*sharp)[2] = mem_alloc(edges.edge_count * sizeof *sharp + 1);
+    round_crease *sharp = mem_alloc(edges.edge_count * sizeof *sharp + 1);
     out->sharp_count = 0;
     for (uint32_t i = 0; sharp && i < edges.edge_count; i++) {
         const mesh_edge *e = &edges.edges[i];
         if (!(e->flags & EDGE_CREASE))
             continue;
-        sharp[out->sharp_count][0] = edges.positions[e->vertex[0]];
-        sharp[out->sharp_count++][1] = edges.positions[e->vertex[1]];
+        sharp[out->sharp_count++] =
+            (round_crease){{edges.positions[e->vertex[0]], edges.positions[e->vertex[1]]}, turn_of(&edges, e)};
     }
     edge_mesh_release(&edges);
-    out->sharp = (const vec3(*)[2])sharp;
+    out->sharp = sharp;
     return sharp ? LMN_OK : error_memory(error);
 }
 

@@ -11,7 +11,7 @@
 #include "scene/mesh.h"
 #include "scene/round_private.h"
 
-enum { ROUNDS = 4, WHOLE = -1, SILHOUETTE = ROUND_SILHOUETTE, HARD = ROUND_HARD };
+enum { ROUNDS = 4, WHOLE = -1, SILHOUETTE = ROUND_SILHOUETTE };
 
 static vec3 vec_of(const double p[3])
 {
@@ -118,28 +118,27 @@ static lmn_status number_positions(rounding *r, lmn_error *error)
 
 static int compare_places(const void *one, const void *other)
 {
-    return memcmp(one, other, sizeof(vec3[2]));
+    return memcmp(((const round_crease *)one)->ends, ((const round_crease *)other)->ends, sizeof(vec3[2]));
 }
 
 /* One place, however zero is written; the same edge either way round. */
-static void put_place(vec3 out[2], vec3 a, vec3 b)
+static round_crease place_of(vec3 a, vec3 b, float turn)
 {
     vec3 from = {a.x + 0.0f, a.y + 0.0f, a.z + 0.0f}, to = {b.x + 0.0f, b.y + 0.0f, b.z + 0.0f};
     bool turned = memcmp(&from, &to, sizeof from) > 0;
-    out[0] = turned ? to : from;
-    out[1] = turned ? from : to;
+    return (round_crease){{turned ? to : from, turned ? from : to}, turn};
 }
 
 /* Where free forms alone are round, all else is judged by whoever draws it. */
-static uint8_t *say_edges(const primitive *p, const vec3 (*places)[2], size_t count, bool forms_only)
+static uint8_t *say_edges(const primitive *p, const round_crease *places, size_t count, bool forms_only)
 {
     uint8_t *out = mem_alloc((size_t)p->index_count + 1);
     if (out && forms_only)
         memset(out, ROUND_NOTHING, p->index_count);
     for (uint32_t c = 0; out && !forms_only && c < p->index_count; c++) {
-        vec3 own[2];
-        put_place(own, p->positions[p->indices[c]], p->positions[p->indices[next_corner(c)]]);
-        out[c] = bsearch(own, places, count, sizeof own, compare_places) ? HARD : SILHOUETTE;
+        round_crease        own = place_of(p->positions[p->indices[c]], p->positions[p->indices[next_corner(c)]], 0);
+        const round_crease *found = bsearch(&own, places, count, sizeof own, compare_places);
+        out[c] = found ? edge_turned(found->turn) : SILHOUETTE;
     }
     return out;
 }
@@ -147,17 +146,16 @@ static uint8_t *say_edges(const primitive *p, const vec3 (*places)[2], size_t co
 /* Of primitives whose file does not. */
 static lmn_status say_all_edges(rounding *r, const round_options *options, lmn_error *error)
 {
-    vec3(*places)[2] = mem_alloc(options->sharp_count * sizeof *places + 1);
-    bool good = places != NULL;
+    round_crease *places = mem_alloc(options->sharp_count * sizeof *places + 1);
+    bool          good = places != NULL;
     for (size_t i = 0; i < options->sharp_count && good; i++)
-        put_place(places[i], options->sharp[i][0], options->sharp[i][1]);
+        places[i] = place_of(options->sharp[i].ends[0], options->sharp[i].ends[1], options->sharp[i].turn);
     if (good)
         qsort(places, options->sharp_count, sizeof *places, compare_places);
     for (size_t i = 0; i < r->part_count && good; i++) {
         primitive *p = &r->parts[i].made;
         if (p->indices && !p->edges.values)
-            good = (p->edges.values =
-                        say_edges(p, (const vec3(*)[2])places, options->sharp_count, options->forms_only)) != NULL;
+            good = (p->edges.values = say_edges(p, places, options->sharp_count, options->forms_only)) != NULL;
     }
     mem_free(places);
     return good ? LMN_OK : error_memory(error);

@@ -9,20 +9,27 @@
 
 #include "scene/scene.h"
 
+/* An edge that is a crease: its ends, exactly where vertices of the mesh are, and by how much it turns as a line,
+ * radians. */
+typedef struct round_crease {
+    vec3  ends[2];
+    float turn;
+} round_crease;
+
 typedef struct round_options {
-    double crease_angle;    /* radians; of primitives without normals */
-    double tolerance;       /* how far edges may lie off the surface, of the mesh's diagonal */
-    size_t most_vertices;   /* that are added; the last halving that would add more is left out */
-    bool   forms_only;      /* what is no free form stays as it is */
-    const vec3 (*sharp)[2]; /* ends of edges that are creases, exactly where vertices of the mesh are */
-    size_t sharp_count;
+    double              crease_angle;  /* radians; of primitives without normals */
+    double              tolerance;     /* how far edges may lie off the surface, of the mesh's diagonal */
+    size_t              most_vertices; /* that are added; the last halving that would add more is left out */
+    bool                forms_only;    /* what is no free form stays as it is */
+    const round_crease *sharp;         /* edges that are creases */
+    size_t              sharp_count;
 } round_options;
 
 /* `out` becomes the mesh that is drawn instead, with normals and triangles of its own, revision 0; vertices that were
  * there keep their order, and but for free forms their places. It says of its edges that they may be outlines, or are
- * creases where edges were sharp, unless the mesh says more itself; with `forms_only` nothing but that edges within
- * free forms are outlines at most. Without primitives: the mesh is as round as it can
- * be. Released with mesh_release. Errors: LMN_MEMORY, LMN_LIMIT. */
+ * creases where edges were sharp, and by how much these turned, which their faces no longer do; unless the mesh says
+ * more itself. With `forms_only` nothing but that edges within free forms are outlines at most. Without primitives: the
+ * mesh is as round as it can be. Released with mesh_release. Errors: LMN_MEMORY, LMN_LIMIT. */
 lmn_status mesh_round(mesh *out, const mesh *m, const round_options *options, lmn_error *error);
 
 /* --- one edge, for tests -------------------------------------------------------------------------------- */

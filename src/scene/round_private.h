@@ -12,7 +12,7 @@
 enum { FORM_ROUNDS = 3, FORM_TRIANGLES_LEAST = 64 };
 
 /* Of edge_visibility. */
-enum { ROUND_SILHOUETTE = 1, ROUND_HARD = 2, ROUND_NOTHING = 4 };
+enum { ROUND_SILHOUETTE = 1, ROUND_NOTHING = 4 };
 
 /* A half-edge: corner `corner` of the primitive's triangles to the next one. */
 typedef struct half_edge {

@@ -33,10 +33,25 @@ typedef struct morph_target {
     vec3 *positions, *normals;
 } morph_target;
 
-/* Which edges of a primitive a file wants shown (EXT_mesh_primitive_edge_visibility); kept for later. */
+/* Which edges of a primitive a file wants shown (EXT_mesh_primitive_edge_visibility); kept for later. From EDGE_TURNED
+ * on an edge is hard and has turned by edge_turn before the mesh was made round (scene/round.h). */
 typedef struct edge_visibility {
     uint8_t *values; /* 3 per triangle, edge k runs from corner k to k+1: 0 hidden, 1 silhouette, 2 hard, 3 repeated */
 } edge_visibility;
+
+enum { EDGE_TURNED = 128, EDGE_TURNED_MOST = 255 };
+
+/* Radians, of 0 to π. */
+static inline uint8_t edge_turned(float turn)
+{
+    float steps = (float)(EDGE_TURNED_MOST - EDGE_TURNED), at = turn * (steps / 3.14159265f) + 0.5f;
+    return (uint8_t)(EDGE_TURNED + (int)(at < 0 ? 0 : at > steps ? steps : at));
+}
+
+static inline float edge_turn(uint8_t value)
+{
+    return (float)(value - EDGE_TURNED) * (3.14159265f / (float)(EDGE_TURNED_MOST - EDGE_TURNED));
+}
 
 /* Triangles of one material, or lines. Vertices as the file has them; positions are always there, other arrays may be
  * NULL. Of triangles `indices` is always there, 3 per triangle, each < vertex_count; of lines `lines`, 2 per line. In a

@@ -36,7 +36,7 @@ static lmn_status find_sharp(const edge_mesh *m, uint8_t *sharp, lmn_error *erro
         return status;
     for (uint32_t h = 0; h < 3 * m->face_count; h++) {
         uint8_t said = said_of(m, h);
-        sharp[h] = said == SAID_HARD || said == SAID_REPEATED;
+        sharp[h] = said == SAID_HARD || said == SAID_REPEATED || said >= EDGE_TURNED;
     }
     for (uint32_t i = 0; i < m->edge_count; i++) {
         const mesh_edge *e = &m->edges[i];

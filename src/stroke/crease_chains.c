@@ -294,7 +294,8 @@ static bool judge_chains(chain_net *n, double weak_turn)
         bool        goes = may_go && ((f.turn < weak_turn && f.free_ends > 0) || is_of_mesh(n, &f));
         for (size_t k = 0; k < f.count; k++) {
             mesh_edge *e = &m->edges[n->chain[k]];
-            e->turn = goes ? 0 : (float)f.turn;
+            bool       said = n->m->said && e->turn > 0; /* faces of what was made round turn less */
+            e->turn = goes ? 0 : said ? e->turn : (float)f.turn;
             e->flags = goes ? (e->flags & ~(uint32_t)EDGE_CREASE) | EDGE_CANDIDATE | EDGE_QUIET : e->flags;
         }
         gone = gone || goes;

@@ -196,6 +196,16 @@ static uint32_t obey(uint32_t flags, const uint8_t *said, const half_edge *group
     return (flags & ~(uint32_t)EDGE_CANDIDATE) | EDGE_CREASE;
 }
 
+/* By how much an edge turned before the mesh was made round; 0: nobody says so. */
+static float turn_said(const edge_mesh *m, const half_edge *group, size_t count)
+{
+    float turn = 0;
+    for (size_t i = 0; m->said && i < count; i++)
+        if (m->said[group[i].corner] >= EDGE_TURNED)
+            turn = fmaxf(turn, edge_turn(m->said[group[i].corner]));
+    return turn;
+}
+
 static bool put_edge(edge_builder *b, uint32_t low, uint32_t flags, const half_edge *group, size_t count)
 {
     edge_mesh *m = b->mesh;
@@ -205,7 +215,7 @@ static bool put_edge(edge_builder *b, uint32_t low, uint32_t flags, const half_e
     m->edges[m->edge_count++] = (mesh_edge){{begin, begin == low ? group[0].high : low},
                                             {corner / 3, count > 1 ? group[1].corner / 3 : EDGE_NO_FACE},
                                             flags,
-                                            0};
+                                            flags & EDGE_CREASE ? turn_said(m, group, count) : 0};
     return true;
 }
 

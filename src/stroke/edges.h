@@ -20,7 +20,8 @@ typedef enum edge_flag {
     EDGE_ROUNDED = 1 << 5 /* beside EDGE_CREASE: the middle of a narrow rounding, as sharp as that turns in all */
 } edge_flag;
 
-/* What a file says of an edge (glTF's EXT_mesh_primitive_edge_visibility). It overrules the angle. */
+/* What a file says of an edge (glTF's EXT_mesh_primitive_edge_visibility). It overrules the angle. From EDGE_TURNED on
+ * it is hard and turned by so much before it was made round (edge_turn). */
 typedef enum edge_saying { SAID_HIDDEN, SAID_SILHOUETTE, SAID_HARD, SAID_REPEATED, SAID_NOTHING } edge_saying;
 
 /* One edge. Its faces, as seen along it from vertex[0] to vertex[1]: face[0] is the one whose winding has it in

@@ -15,7 +15,7 @@ flat out vec4 v_ends;    /* of the piece, pixels */
 flat out vec4 v_depths;  /* 1 / depth of both ends (or depth), tolerance as fraction of the depth (or as depth), which ends lie on an edge: 1 the first + 2 the second */
 out float v_half_width;
 
-const float RAMP = 0.5, UNEVEN = 0.3, SPARSE = 14.0, GRAZING = 0.05, BLACK = 0.8;
+const float RAMP = 0.5, UNEVEN = 0.3, SPARSE = 14.0, GRAZING = 0.05, BLACK = 0.8, FILLED = 2.0;
 
 vec4 spaces_of(float packed_spaces)
 {
@@ -142,7 +142,7 @@ float half_width_at(mark_position m, vec3 direction, float spaces, float to_end,
     float needed = u_room * (1.0 + set), roomy = smoothstep(0.5 * needed, needed, room * across / u_scale);
     cover *= roomy;
 #ifdef WITH_BLACK
-    cover += (1.0 - roomy) * (strokes_are_light() ? step(1.0 - dark, u_black) : step(u_black, dark));
+    cover += (1.0 - roomy) * FILLED * (strokes_are_light() ? step(1.0 - dark, u_black) : step(u_black, dark));
     most = strokes_are_light() ? most : min(most, room * across);
 #endif
 #endif

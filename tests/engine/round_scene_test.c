@@ -261,12 +261,169 @@ static void outlines_are_round_in_vectors(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* --- bevels ---------------------------------------------------------------------------------------------- */
+
+/* A bar along x whose edges are narrow roundings, smoothly shaded, as those of a truck's body; within it a prism
+ * that stands for a tube, so that the mesh is made round. */
+enum {
+    STRIPS = 6,
+    PROFILE = 4 * (STRIPS + 1),
+    TUBE = 4 * PROFILE, /* its first corner */
+    SIDES = 12,
+    BEVEL_CORNERS = TUBE + 2 * SIDES,
+    BEVEL_TRIANGLES = 2 * PROFILE + 2 * (PROFILE - 2) + 2 * SIDES
+};
+
+typedef struct bevelled {
+    float    positions[3 * BEVEL_CORNERS], normals[3 * BEVEL_CORNERS];
+    uint32_t indices[3 * BEVEL_TRIANGLES], count;
+} bevelled;
+
+static const double half_sides[3] = {1, 0.6, 0.5}, bevel = 0.02;
+
+static void put_vector(float *out, double x, double y, double z)
+{
+    out[0] = (float)x;
+    out[1] = (float)y;
+    out[2] = (float)z;
+}
+
+static void add_face(bevelled *b, uint32_t i, uint32_t k, uint32_t m)
+{
+    const uint32_t corners[3] = {i, k, m};
+    memcpy(b->indices + b->count, corners, sizeof corners);
+    b->count += 3;
+}
+
+/* Two rings of corners for the sides, two for the ends, and the tube. */
+static void make_bevelled(bevelled *b)
+{
+    memset(b, 0, sizeof *b);
+    for (uint32_t i = 0; i < PROFILE; i++) {
+        uint32_t quarter = i / (STRIPS + 1), next = (i + 1) % PROFILE;
+        double   angle = PI / 2 * (quarter + (double)(i % (STRIPS + 1)) / STRIPS), c = cos(angle), s = sin(angle);
+        double   y = (quarter == 0 || quarter == 3 ? 1 : -1) * (half_sides[1] - bevel) + bevel * c,
+               z = (quarter < 2 ? 1 : -1) * (half_sides[2] - bevel) + bevel * s;
+        for (uint32_t ring = 0; ring < 4; ring++) {
+            uint32_t at = 3 * (ring * PROFILE + i);
+            double   side = ring % 2 ? 1 : -1;
+            put_vector(&b->positions[at], side * half_sides[0], y, z);
+            put_vector(&b->normals[at], ring < 2 ? 0 : side, ring < 2 ? c : 0, ring < 2 ? s : 0);
+        }
+        add_face(b, i, PROFILE + next, PROFILE + i);
+        add_face(b, i, next, PROFILE + next);
+        if (i + 2 < PROFILE) {
+            add_face(b, 2 * PROFILE, 2 * PROFILE + i + 2, 2 * PROFILE + i + 1);
+            add_face(b, 3 * PROFILE, 3 * PROFILE + i + 1, 3 * PROFILE + i + 2);
+        }
+    }
+    for (uint32_t i = 0; i < SIDES; i++) {
+        double   angle = 2 * PI * i / SIDES, c = cos(angle), s = sin(angle);
+        uint32_t at = TUBE + 2 * i, next = TUBE + 2 * ((i + 1) % SIDES);
+        for (uint32_t k = 0; k < 2; k++) {
+            put_vector(&b->positions[3 * (at + k)], k ? 0.2 : -0.2, 0.2 * c, 0.2 * s);
+            put_vector(&b->normals[3 * (at + k)], 0, c, s);
+        }
+        add_face(b, at, next, next + 1);
+        add_face(b, at, next + 1, at + 1);
+    }
+}
+
+static lmn_scene *scene_of_bevelled(void)
+{
+    bevelled      b;
+    lmn_scene    *s = NULL;
+    lmn_mesh_desc mesh = LMN_MESH_DESC_INIT;
+    lmn_node_desc node = LMN_NODE_DESC_INIT;
+    uint32_t      number;
+    make_bevelled(&b);
+    mesh.positions = b.positions;
+    mesh.normals = b.normals;
+    mesh.vertex_count = BEVEL_CORNERS;
+    mesh.indices = b.indices;
+    mesh.index_count = b.count;
+    DO(lmn_scene_create(&s, &error));
+    DO(lmn_scene_add_mesh(s, &mesh, &node.mesh, &error));
+    DO(lmn_scene_add_node(s, &node, &number, &error));
+    return s;
+}
+
+enum { BEVEL_SIDE = 800 };
+
+/* Where a place lies in a picture from above the front, without perspective. */
+#define HALF_HEIGHT 0.4
+#define UP          0.18
+
+static void on_page(const double at[3], double out[2])
+{
+    const double scale = BEVEL_SIDE / (2 * HALF_HEIGHT);
+    out[0] = BEVEL_SIDE / 2.0 + scale * at[0];
+    out[1] = BEVEL_SIDE / 2.0 - scale * (0.8 * at[1] - 0.6 * at[2] - UP);
+}
+
+/* Of what share of a line there is ink within four pixels. */
+static double inked(const uint8_t *pixels, const double from[3], const double to[3])
+{
+    enum { PLACES = 200, NEAR = 4 }; /* a pen's lines stray */
+    int found = 0;
+    for (int i = 0; i < PLACES; i++) {
+        double at[3], page[2], part = 0.05 + 0.9 * i / (PLACES - 1);
+        int    darkest = 255;
+        for (int k = 0; k < 3; k++)
+            at[k] = from[k] + part * (to[k] - from[k]);
+        on_page(at, page);
+        for (int y = -NEAR; y <= NEAR; y++)
+            for (int x = -NEAR; x <= NEAR; x++) {
+                int value = pixels[4 * (((int)page[1] + y) * BEVEL_SIDE + (int)page[0] + x)];
+                darkest = value < darkest ? value : darkest;
+            }
+        found += darkest < 160;
+    }
+    return (double)found / PLACES;
+}
+
+/* The edge between two flat faces is a line all along, though it is rounded a little, in each look that hatches. Their
+ * strokes are left out, so that nothing else is ink there. */
+static void bevels_are_lines_in_looks_of_strokes(void **state)
+{
+    static const char *const looks[] = {"hatch", "engraving", "ink", "woodcut", "pen", "quill"};
+    static const double      view[16] = {1, 0, 0, 0, 0, 0.8, 0.6, 0, 0, -0.6, 0.8, 0, 0, -UP, -5, 1};
+    static const double      projection[16] = {1 / HALF_HEIGHT, 0, 0, 0, 0, 1 / HALF_HEIGHT, 0, 0, 0, 0, -0.25, 0, 0, 0,
+                                               -1.25,           1};
+    lmn_scene               *s = scene_of_bevelled();
+    for (size_t i = 0; i < sizeof looks / sizeof *looks; i++) {
+        lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+        lmn_drawing  *drawing = NULL;
+        lmn_look     *look = NULL;
+        DO(lmn_look_load(&look, looks[i], &error));
+        DO(lmn_look_set(look, "scene.ground", "none", &error));
+        DO(lmn_look_set(look, "surface.technique", "flat", &error));
+        DO(lmn_look_set(look, "surface.colour", "#ffffff", &error));
+        desc.width = desc.height = BEVEL_SIDE;
+        desc.matrices_given = true;
+        memcpy(desc.view_matrix, view, sizeof view);
+        memcpy(desc.projection_matrix, projection, sizeof projection);
+        DO(lmn_draw(&drawing, *state, s, look, &desc, &error));
+        const double from[3] = {-0.9 * HALF_HEIGHT, half_sides[1] - 0.3 * bevel, half_sides[2] - 0.3 * bevel},
+                     to[3] = {0.9 * HALF_HEIGHT, from[1], from[2]};
+        const uint8_t *pixels = lmn_drawing_pixels(drawing, NULL, NULL);
+        double         share = inked(pixels, from, to);
+        if (share < 0.98)
+            print_message("%s: ink along %.3f of the edge\n", looks[i], share);
+        assert_true(share >= 0.98);
+        lmn_drawing_destroy(&drawing);
+        lmn_look_destroy(&look);
+    }
+    lmn_scene_destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coarse_balls_cover_discs),      cmocka_unit_test(what_is_kept_follows_what_is_drawn),
         cmocka_unit_test(forms_alone_are_another_scene), cmocka_unit_test(files_do_not_mix),
         cmocka_unit_test(outlines_are_round_in_vectors),
+        cmocka_unit_test(bevels_are_lines_in_looks_of_strokes),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -607,6 +607,30 @@ static void slanted_lines_lean_on_flat_faces_alone(void **state)
     release_shape(&tube);
 }
 
+/* Flanks that go over into what is round have lines as that has, whatever the slant of flat faces is. */
+static void slanted_lines_go_on_from_what_is_round(void **state)
+{
+    (void)state;
+    shape        s = with_normals(grid_surface(arch_at, 100, 40, false, false, 0.1));
+    marks        m;
+    flow_options options = {.apart = 0.2, .levels = 1, .series = 1, .slant = 0.6f, .sag = 0.002, .seed = 1};
+    double       aslant = 0, length = 0;
+    assert_int_equal(marks_streamlines(&m, &s.surface, &options, NULL), LMN_OK);
+    for (size_t i = 0; i < m.line_count; i++) {
+        const mark_line *l = &m.lines[i];
+        place3           along = from_to(l->a, l->b);
+        double           size = sqrt(product3(along, along));
+        if (l->a.y > -0.3f || l->b.y > -0.3f || size == 0)
+            continue;
+        aslant += fabs(along.z) > 0.2 * size ? size : 0;
+        length += size;
+    }
+    printf("arch: %.3f of the lines on its flanks lie aslant\n", aslant / length);
+    assert_true(length > 0 && aslant < 0.01 * length);
+    surface_marks_release(&m);
+    release_shape(&s);
+}
+
 static void memory_may_run_out(void **state)
 {
     (void)state;
@@ -673,6 +697,37 @@ static void flat_faces_fade(void **state)
     surface_marks_release(&round);
     release_shape(&wall);
     release_shape(&ring);
+}
+
+/* A wall of height 1 whose upper and lower edges are rounded a little, by quarters of circles. */
+static place3 rounded_wall_at(double u, double v)
+{
+    const double r = 0.02;
+    double       low = fmin(4 * u, 1), high = fmin(4 * (1 - u), 1), middle = fmin(fmax(2 * u - 0.5, 0), 1);
+    double       angle = field_pi / 2 * (low < 1 ? 1 - low : high < 1 ? 1 - high : 0);
+    double       y = low < 1 ? -r * sin(angle) : high < 1 ? 1 + r * sin(angle) : middle;
+    return (place3){2 * v, y, -r * (1 - cos(angle))};
+}
+
+/* Such an edge is one: the wall fades as if it were sharp. */
+static void flat_faces_with_rounded_edges_fade(void **state)
+{
+    (void)state;
+    shape wall = with_normals(grid_surface(rounded_wall_at, 24, 2, false, false, 0));
+    wall.surface.up = (vec3){0, 1, 0};
+    marks  m = make_lines(&wall, 0.02, 3, 1);
+    double above = 0, high = 0;
+    for (size_t i = 0; i < m.line_count; i++) {
+        const mark_line *l = &m.lines[i];
+        double           own = (double)l->to - (double)l->from;
+        bool             there = l->a.y > 0.75f && l->a.y < 0.99f;
+        above += there ? own * (double)l->ends[0].shade : 0;
+        high += there ? own : 0;
+    }
+    printf("rounded wall: shade %.3f above\n", above / high);
+    assert_true(above / high > 0.35);
+    surface_marks_release(&m);
+    release_shape(&wall);
 }
 
 /* Half of the wall is dark, up to a line that lies aslant in its triangles. */
@@ -813,7 +868,9 @@ int main(void)
         cmocka_unit_test(the_same_lines_twice),
         cmocka_unit_test(memory_may_run_out),
         cmocka_unit_test(slanted_lines_lean_on_flat_faces_alone),
+        cmocka_unit_test(slanted_lines_go_on_from_what_is_round),
         cmocka_unit_test(flat_faces_fade),
+        cmocka_unit_test(flat_faces_with_rounded_edges_fade),
         cmocka_unit_test(lines_know_what_they_lie_on),
         cmocka_unit_test(short_lines_have_no_room),
         cmocka_unit_test(bends_have_room_by_their_radius),
