@@ -117,7 +117,7 @@ vec4 two_sticks(vec4 paper, vec3 own, float darkness)
     return vec4(paper.rgb * left, paper.a);
 }
 #elif MEDIUM == 2
-const float BOTH = 0.13; /* of the sticks at the paper's own tone, */
+const float BOTH = 0.18; /* of the sticks at the paper's own tone, */
 const float SPAN = 0.4; /* and how far from it, of all there is to either side, they lie together */
 
 /* White from the paper's own tone up, black from there down. */
