@@ -66,7 +66,7 @@ vec4 surface_colour(surface_point p)
     float pigment = (1.0 + 0.5 * u_pooling * rim) * uneven_at(gl_FragCoord.xy, flow.x) * settled_at(gl_FragCoord.xy);
     vec3 parted = 1.0 + DRIFT * u_flow * flow.y * vec3(1.0, 0.1, -1.0);
     float most = min(shade * pigment, 1.0);
-    return vec4(pow(clamp(p.albedo.rgb, 0.02, 1.0), parted), 1.0) * most;
+    return vec4(pow(clamp(p.albedo.rgb, 0.0001, 1.0), parted), 1.0) * most;
 }
 #else
 const float WET = 0.3;   /* of the further washes, what goes over gradually from where more to where less of them lies: it ran before it was dry */
