@@ -52,7 +52,8 @@ static const param params[] = {
                     .doc = "How much of what is left of the paper a stroke covers: strokes of much stand alone, those "
                            "of little lie over each other."),
     PARAM_FLOAT_ROW(stick_values, smear, .def = 0.3, .min = 0, .max = 1, .unit = UNIT_FRACTION,
-                    .doc = "Fraction of the darkest tone that is rubbed smooth under the strokes; less of lighter ones."),
+                    .doc =
+                        "Fraction of the darkest tone that is rubbed smooth under the strokes; less of lighter ones."),
     PARAM_FLOAT_ROW(stick_values, tooth, .def = 0.7, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How far the paper's teeth break strokes up."),
     PARAM_ENUM_ROW(stick_values, tooth_paper, .names = paper_names, .def = PAPER_ROUGH, .cpu_only = true,

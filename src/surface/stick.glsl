@@ -8,9 +8,12 @@
 surface_point s_point;
 rest_position s_rest;
 float         s_contact; /* of the paper here, 0 … 1: how early a stick touches it */
+vec2          s_hand;          /* where the hand is, pixels along and across the stroke */
 float         s_pressed = 0.5; /* how hard the hand presses here, 0 … 1 */
 
 const float BROAD = 18.0;  /* how much wider the hand's pressure varies than teeth do */
+const float ALONG = 0.35;  /* of that along strokes, and */
+const float ACROSS = 1.5;  /* across them */
 const float PRESSED = 0.3; /* weight of it against theirs */
 const float UNEVEN = 0.3;  /* how much of a rubbed tone goes with it */
 
@@ -86,12 +89,24 @@ float stick_cover_twice(float darkness)
     return 1.0 - (1.0 - rubbed_here(rubbed)) * (1.0 - on_teeth(cover));
 }
 
+/* Where the hand is: its pressure varies less along strokes than across them. */
+vec2 hand_at(vec2 at)
+{
+#ifdef HAS_FORM
+    stroke_plane first = plane_of(s_point, s_rest, 0, u_angle), second = plane_of(s_point, s_rest, 1, u_angle);
+    stroke_plane s = first.weight > second.weight ? first : second;
+    return s.at * page_unit() * vec2(ALONG, ACROSS);
+#else
+    return at;
+#endif
+}
+
 /* How early the paper is touched at a place of it: by its teeth, and by how hard the hand presses there. */
 float contact_at(vec2 at)
 {
 #ifdef HAS_TEETH
     vec2 texel = at / (u_teeth_facts.x * u_tooth_size * 0.25);
-    vec2 found = vec2(textureLod(t_teeth, vec3(texel, 0.0), 0.0).r, textureLod(t_teeth, vec3(texel / BROAD + vec2(0.31, 0.57), 0.0), 0.0).r) * (255.0 / 256.0) + 0.5 / 256.0;
+    vec2 found = vec2(textureLod(t_teeth, vec3(texel, 0.0), 0.0).r, textureLod(t_teeth, vec3((s_hand + at - gl_FragCoord.xy + u_anchor) / (u_teeth_facts.x * u_tooth_size * 0.25 * BROAD) + vec2(0.31, 0.57), 0.0), 0.0).r) * (255.0 / 256.0) + 0.5 / 256.0;
     s_pressed = found.y;
     return even_sum(found, PRESSED);
 #else
@@ -144,6 +159,7 @@ vec4 surface_colour(surface_point p)
 {
     s_point = p;
     s_rest = position_at_rest(p);
+    s_hand = hand_at(gl_FragCoord.xy - u_anchor);
     s_contact = contact_at(gl_FragCoord.xy - u_anchor);
     float tone = tone_of_light(p, light_of(p));
 #ifdef ON_GROUND
