@@ -81,7 +81,8 @@ typedef struct lmn_draw_desc {
      * nothing is read back. Not with `profile`. Since 0.1. */
     bool textures;
     /* For pictures that the next one replaces at once, while somebody turns a model: what costs most and shows least is
-     * left out. Lines found in pictures lie to the pixel only, without the exact edges of meshes. Sheets do not heed
+     * left out. Lines found in pictures lie to the pixel only, without the exact edges of meshes; hard shadows on the
+     * ground have the borders that they fall with. Sheets do not heed
      * it. Since 0.1. */
     bool draft;
     /* With eye_given: eye, target and up say only from which direction and which way up; how near the eye is follows
@@ -178,8 +179,8 @@ LMN_API char *lmn_drawing_report_json(const lmn_drawing *drawing);
 LMN_API size_t      lmn_drawing_warning_count(const lmn_drawing *drawing);
 LMN_API const char *lmn_drawing_warning_at(const lmn_drawing *drawing, size_t index, const char **code, size_t *count);
 
-/* Measures whole frames of looks against `plain`, drawn in turn, as JSON (docs/reference/bench.md). Free with
- * lmn_text_free. Errors: those of lmn_look_load and lmn_draw. */
+/* Measures whole frames of looks against `plain`, each in turn with plain frames, as JSON (docs/reference/bench.md).
+ * Free with lmn_text_free. Errors: those of lmn_look_load and lmn_draw. */
 LMN_API lmn_status lmn_bench_json(char **out, lmn_renderer *renderer, const lmn_scene *scene, const char *const *looks,
                                   size_t look_count, const lmn_draw_desc *desc, int repeat, lmn_error *error);
 

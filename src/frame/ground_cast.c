@@ -67,23 +67,54 @@ static void draw_dark(frame *f, const figure_state *s, gpu_texture *into)
 }
 
 /* Leaves out what is too small to be told, and calms the border; the third number becomes the shadow with a soft one.
- */
+ * False: no memory. */
+static bool calm_texels(uint8_t *texels, const calmed_shadow *as)
+{
+    return scraps_drop(texels, as->width, as->height, as->smoothing) &&
+           appendages_cut(texels, as->width, as->height, as->smoothing) &&
+           contours_calm(texels, as->width, as->height, as->smoothing) &&
+           (!as->softened || coverage_spread(texels, as->width, as->height, as->smoothing));
+}
+
+static bool fell_so_before(const calmed_shadow *kept, const calmed_shadow *now)
+{
+    return kept->fallen && kept->width == now->width && kept->height == now->height &&
+           kept->smoothing == now->smoothing && kept->softened == now->softened &&
+           memcmp(kept->fallen, now->fallen, 4 * (size_t)now->width * (size_t)now->height) == 0;
+}
+
+static void keep_calmed(calmed_shadow *kept, const calmed_shadow *now)
+{
+    mem_free(kept->fallen);
+    mem_free(kept->calmed);
+    *kept = *now;
+}
+
+/* Tracing takes longer than a frame may: a shadow that fell so in the last one is not traced again. */
 static void calm(frame *f, const int box[4], gpu_texture *dark)
 {
-    bool     softens = values_of(f)->ground_fade > 0 && !values_of(f)->ground_flat && !(values_of(f)->ground_hatch > 0);
-    size_t   count = (size_t)box[2] * (size_t)box[3];
-    double   smoothing = (double)values_of(f)->ground_smoothing;
-    uint8_t *texels = mem_alloc(4 * count);
-    if (texels)
-        gpu_read_box(f->g, dark, box, texels);
-    if (!gpu_failed(f->g) &&
-        (!texels || !scraps_drop(texels, box[2], box[3], smoothing) ||
-         !appendages_cut(texels, box[2], box[3], smoothing) || !contours_calm(texels, box[2], box[3], smoothing) ||
-         (softens && !coverage_spread(texels, box[2], box[3], smoothing))))
-        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    const scene_values *v = values_of(f);
+    size_t              bytes = 4 * (size_t)box[2] * (size_t)box[3];
+    calmed_shadow      *kept = &f->up->ground_shadow;
+    calmed_shadow       now = {.fallen = mem_alloc(bytes),
+                               .width = box[2],
+                               .height = box[3],
+                               .smoothing = (double)v->ground_smoothing,
+                               .softened = v->ground_fade > 0 && !v->ground_flat && !(v->ground_hatch > 0)};
+    if (now.fallen)
+        gpu_read_box(f->g, dark, box, now.fallen);
+    if (now.fallen && !gpu_failed(f->g) && fell_so_before(kept, &now)) {
+        mem_free(now.fallen);
+    } else {
+        now.calmed = now.fallen && !gpu_failed(f->g) ? mem_copy(now.fallen, bytes) : NULL;
+        if (!gpu_failed(f->g) && (!now.calmed || !calm_texels(now.calmed, &now)))
+            gpu_fail(f->g, LMN_MEMORY, "out of memory");
+        keep_calmed(kept, &now);
+    }
     if (!gpu_failed(f->g))
-        gpu_target_write(f->g, dark, box, texels);
-    mem_free(texels);
+        gpu_target_write(f->g, dark, box, kept->calmed);
+    else
+        keep_calmed(kept, &(calmed_shadow){.fallen = NULL});
 }
 
 /* How much of each pixel of the ground lies in shadow. The caller gives it back. */
@@ -91,7 +122,7 @@ static gpu_texture *draw_hard(frame *f, const figure_state *s)
 {
     gpu_texture *out = gpu_target_acquire(f->g, f->width, f->height, GPU_RGBA8);
     draw_dark(f, s, out);
-    if (values_of(f)->ground_smoothing > 0 && !gpu_failed(f->g))
+    if (values_of(f)->ground_smoothing > 0 && !f->draft && !gpu_failed(f->g))
         calm(f, s->pixels, out);
     return out;
 }

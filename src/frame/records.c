@@ -12,8 +12,8 @@
 /* In a record's bits, of what is wanted: outlines. */
 enum { RECORD_OUTLINE = 32 };
 
-/* Which edges a program draws. */
-enum { SHORT_EDGES = 1, SMOOTH_OUTLINES = 2, KINDS_OF_EDGES = 4 };
+/* Which edges a program draws; ALL_EDGES: of every kind. */
+enum { SHORT_EDGES = 1, SMOOTH_OUTLINES = 2, KINDS_OF_EDGES = 4, ALL_EDGES = 7 };
 
 /* Pixels tell all that there is about parts no larger than this, points of paper. */
 #define SMALLEST_PART 8.0
@@ -102,6 +102,8 @@ static gpu_program *program(frame *f, const figure_state *s, const pass *p, cons
     text_append(&prelude, "%s%s%s", has_open_bodies(f) ? "#define OPEN_BODIES\n" : "",
                 which & SHORT_EDGES ? "#define SHORT_EDGES\n" : "",
                 which & SMOOTH_OUTLINES ? "#define SMOOTH_OUTLINES\n" : "");
+    if (which == ALL_EDGES)
+        text_append(&prelude, "#define ALL_EDGES\n");
     return program_of(f, GPU_FLOOR, "lines/records.vert", "lines/records.frag", &prelude);
 }
 
@@ -135,18 +137,26 @@ static bool is_drawn(const frame *f, const figure_state *s, const stroke_item *i
     return s->figure->designated[item->part_index] && is_large(f, item->part_index, 1);
 }
 
+/* Has the item edges of the kind? */
+static bool has_kind(const frame *f, const stroke_store *store, const stroke_item *item, int which, double faint)
+{
+    if (which == ALL_EDGES)
+        return true;
+    return (which & SHORT_EDGES || has_open_bodies(f) || may_be_long(f, item)) &&
+           (!(which & SMOOTH_OUTLINES) || may_be_smooth(store, item, 1.01 * faint));
+}
+
 /* Edges of one of four kinds: short on the page or not, outlines of what is smooth or not. What only some need costs a
  * software driver as much as all. */
 static void draw_some(frame *f, figure_state *s, const pass *p, stroke_store *store, const technique_use *use,
                       int which)
 {
     gpu_program *drawing = gpu_failed(f->g) ? NULL : program(f, s, p, use, which);
-    bool         begun = false, open = has_open_bodies(f);
+    bool         begun = false;
     double       faint = judged_angle(use, "faint"), crease = judged_angle(use, "crease");
     for (uint32_t i = 0; i < store->scene.item_count && drawing && !gpu_failed(f->g); i++) {
         const stroke_item *item = &store->scene.items[i];
-        if (!is_drawn(f, s, item) || (!(which & SHORT_EDGES) && !open && !may_be_long(f, item)) ||
-            ((which & SMOOTH_OUTLINES) && !may_be_smooth(store, item, 1.01 * faint)))
+        if (!is_drawn(f, s, item) || !has_kind(f, store, item, which, faint))
             continue;
         if (!begun) {
             gpu_use(f->g, drawing, (gpu_state){.blend = GPU_BLEND_MIN});
@@ -172,7 +182,11 @@ static void draw(frame *f, figure_state *s, const pass *p, stroke_store *store, 
         if (is_drawn(f, s, &store->scene.items[i]))
             edges_bring(f, store, i, false);
     open_pictures(f, s, p);
-    for (int which = 0; store && which < KINDS_OF_EDGES; which++)
+    /* GPUs are quicker with each edge once: most are no lines, and end in the vertex shader. */
+    bool at_once = !gpu_capabilities_of(f->g)->software;
+    if (store && at_once)
+        draw_some(f, s, p, store, use, ALL_EDGES);
+    for (int which = 0; store && !at_once && which < KINDS_OF_EDGES; which++)
         if (!(which & SHORT_EDGES) || !has_open_bodies(f))
             draw_some(f, s, p, store, use, which);
 }

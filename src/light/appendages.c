@@ -7,6 +7,7 @@
 #include <stddef.h>
 
 #include "base/memory.h"
+#include "light/patches.h"
 
 enum { NEXT = 3, ACROSS = 4, FAR = 1 << 28 }; /* distances of neighbours, and of what has none */
 /* Half the width of a neck, of the radius; areas, of its square: of an appendage, and what is left of it eroded. */
@@ -14,92 +15,89 @@ static const double NECK = 0.3, LEAST = 12, LEAST_ERODED = 4;
 static const int    SLIVER = 4; /* borders are rough by so much */
 
 typedef struct search {
-    uint8_t *texels, *seen;
-    int     *distance, *found;
-    int      width, height, neck;
+    texel_box   box;
+    patch_marks marks;
+    int        *distance; /* as the marks lie, with the same frame */
+    int         neck;
 } search;
 
-static bool is_dark(const search *s, int i)
+enum { OUTSIDE, ERODED, LARGE, SMALL, HANGS, DONE }; /* marks; HANGS: dark, and not within what is large */
+
+static uint8_t *texel_of(const search *s, int index)
 {
-    return s->texels[4 * i] > 127;
+    return texel_at(&s->box, index % s->marks.stride - 1, index / s->marks.stride - 1);
 }
 
-static void lower(search *s, int x, int y, int dx, int dy)
+static int smaller(int a, int b)
 {
-    int i = y * s->width + x, from = x + dx < 0 || x + dx >= s->width || y + dy < 0 || y + dy >= s->height
-                                         ? FAR
-                                         : s->distance[i + dy * s->width + dx];
-    int far = from + (dx && dy ? ACROSS : NEXT);
-    s->distance[i] = far < s->distance[i] ? far : s->distance[i];
+    return a < b ? a : b;
 }
 
-/* From what is 0 on, in two sweeps. */
+/* A row from the one beside it, and then from what lies before in it. */
+static void spread_row(int *row, const int *beside, int count, int ahead)
+{
+    for (int x = 1; x <= count; x++) {
+        int across = smaller(beside[x - 1], beside[x + 1]) + ACROSS;
+        row[x] = smaller(row[x], smaller(across, beside[x] + NEXT));
+    }
+    for (int k = 1; k <= count; k++) {
+        int x = ahead > 0 ? k : count + 1 - k;
+        row[x] = smaller(row[x], row[x - ahead] + NEXT);
+    }
+}
+
+/* From what is 0 on, in two sweeps. The frame stays far. */
 static void spread_distance(search *s)
 {
-    for (int y = 0; y < s->height; y++)
-        for (int x = 0; x < s->width; x++)
-            for (int k = 0; k < 4; k++)
-                lower(s, x, y, k < 3 ? k - 1 : -1, k < 3 ? -1 : 0);
-    for (int y = s->height - 1; y >= 0; y--)
-        for (int x = s->width - 1; x >= 0; x--)
-            for (int k = 0; k < 4; k++)
-                lower(s, x, y, k < 3 ? k - 1 : 1, k < 3 ? 1 : 0);
+    int stride = s->marks.stride;
+    for (int y = 1; y <= s->box.height; y++)
+        spread_row(s->distance + (ptrdiff_t)y * stride, s->distance + (ptrdiff_t)(y - 1) * stride, s->box.width, 1);
+    for (int y = s->box.height; y >= 1; y--)
+        spread_row(s->distance + (ptrdiff_t)y * stride, s->distance + (ptrdiff_t)(y + 1) * stride, s->box.width, -1);
 }
-
-/* What hangs together with `first` of texels with the same mark becomes another; how many there are. */
-static int flood(search *s, int first, uint8_t into)
-{
-    uint8_t mark = s->seen[first];
-    int     count = 1;
-    s->found[0] = first;
-    s->seen[first] = into;
-    for (int k = 0; k < count; k++) {
-        int at = s->found[k], x = at % s->width, y = at / s->width;
-        for (int n = 0; n < 9; n++) {
-            int dx = n % 3 - 1, dy = n / 3 - 1, next = at + dy * s->width + dx;
-            if (x + dx < 0 || x + dx >= s->width || y + dy < 0 || y + dy >= s->height || s->seen[next] != mark)
-                continue;
-            s->seen[next] = into;
-            s->found[count++] = next;
-        }
-    }
-    return count;
-}
-
-enum { OUTSIDE, ERODED, LARGE, SMALL, HANGS, DONE }; /* marks; HANGS: dark, and not within what is large */
 
 /* Marks what is left of what is dark, and which of it is large. */
 static void erode(search *s, double radius)
 {
-    int count = s->width * s->height;
-    for (int i = 0; i < count; i++)
-        s->distance[i] = is_dark(s, i) ? FAR : 0;
+    int count = s->marks.stride * s->marks.height;
+    for (int y = 0; y < s->box.height; y++)
+        for (int x = 0; x < s->box.width; x++)
+            s->distance[patch_index(&s->marks, x, y)] = texel_at(&s->box, x, y)[0] > 127 ? FAR : 0;
     spread_distance(s);
-    for (int i = 0; i < count; i++)
-        s->seen[i] = s->distance[i] > s->neck ? ERODED : OUTSIDE;
+    for (int y = 0; y < s->box.height; y++)
+        for (int x = 0; x < s->box.width; x++) {
+            int at = patch_index(&s->marks, x, y);
+            s->marks.marks[at] = s->distance[at] > s->neck ? ERODED : OUTSIDE;
+        }
     for (int i = 0; i < count; i++) {
-        if (s->seen[i] != ERODED)
+        if (s->marks.marks[i] != ERODED)
             continue;
-        int  size = flood(s, i, LARGE);
+        int  size = patch_flood(&s->marks, i, LARGE, true);
         bool small = size < LEAST_ERODED * radius * radius;
         for (int k = 0; k < size && small; k++)
-            s->seen[s->found[k]] = SMALL;
+            s->marks.marks[s->marks.found[k]] = SMALL;
     }
 }
 
 /* Lets what is large grow back; `distance` is then 1 where something small outlived, 2 at what is large, else 0. */
 static void grow_back(search *s)
 {
-    int count = s->width * s->height;
+    int count = s->marks.stride * s->marks.height;
     for (int i = 0; i < count; i++)
-        s->distance[i] = s->seen[i] == LARGE ? 0 : FAR;
+        s->distance[i] = s->marks.marks[i] == LARGE ? 0 : FAR;
     spread_distance(s);
-    for (int i = 0; i < count; i++) {
-        int  away = s->distance[i];
-        bool within = away <= s->neck + SLIVER;
-        s->distance[i] = s->seen[i] == SMALL ? 1 : is_dark(s, i) && within ? 2 : 0;
-        s->seen[i] = is_dark(s, i) && !within ? HANGS : OUTSIDE;
-    }
+    for (int y = 0; y < s->box.height; y++)
+        for (int x = 0; x < s->box.width; x++) {
+            int  at = patch_index(&s->marks, x, y), away = s->distance[at];
+            bool dark = texel_at(&s->box, x, y)[0] > 127, within = away <= s->neck + SLIVER;
+            s->distance[at] = s->marks.marks[at] == SMALL ? 1 : dark && within ? 2 : 0;
+            s->marks.marks[at] = dark && !within ? HANGS : OUTSIDE;
+        }
+}
+
+static int around(const search *s, int index, int n)
+{
+    return index + (n / 3 - 1) * s->marks.stride + n % 3 - 1;
 }
 
 /* Does what was found hang on something large, and is it no corner of it, nor near what throws it? */
@@ -107,11 +105,11 @@ static bool is_appendage(const search *s, int count)
 {
     bool outlived = false, hangs = false, kept = false;
     for (int k = 0; k < count && !kept; k++) {
-        int at = s->found[k], x = at % s->width, y = at / s->width;
-        kept = s->texels[4 * at + 1] || x == 0 || y == 0 || x == s->width - 1 || y == s->height - 1;
+        int at = s->marks.found[k];
+        kept = texel_of(s, at)[1] || patch_at_border(&s->marks, at);
         outlived = outlived || s->distance[at] == 1;
         for (int n = 0; n < 9 && !kept && !hangs; n++)
-            hangs = s->distance[at + (n / 3 - 1) * s->width + n % 3 - 1] == 2;
+            hangs = s->distance[around(s, at, n)] == 2;
     }
     return outlived && hangs && !kept;
 }
@@ -120,11 +118,11 @@ static bool is_appendage(const search *s, int count)
 static void wipe(search *s, int count)
 {
     for (int k = 0; k < count; k++) {
-        int at = s->found[k];
+        int at = s->marks.found[k];
         for (int n = 0; n < 9; n++) {
-            int next = at + (n / 3 - 1) * s->width + n % 3 - 1;
-            if (next == at || !is_dark(s, next))
-                s->texels[4 * next] = 0;
+            uint8_t *texel = texel_of(s, around(s, at, n));
+            if (n == 4 || texel[0] <= 127)
+                texel[0] = 0;
         }
     }
 }
@@ -133,8 +131,8 @@ static void cut(search *s, double radius)
 {
     erode(s, radius);
     grow_back(s);
-    for (int i = 0; i < s->width * s->height; i++) {
-        int count = s->seen[i] == HANGS ? flood(s, i, DONE) : 0;
+    for (int i = 0; i < s->marks.stride * s->marks.height; i++) {
+        int count = s->marks.marks[i] == HANGS ? patch_flood(&s->marks, i, DONE, true) : 0;
         if (count && count < LEAST * radius * radius && is_appendage(s, count))
             wipe(s, count);
     }
@@ -142,16 +140,18 @@ static void cut(search *s, double radius)
 
 bool appendages_cut(uint8_t *texels, int width, int height, double radius)
 {
-    size_t count = (size_t)width * (size_t)height;
-    search s = {.texels = texels, .width = width, .height = height, .neck = (int)(NEXT * NECK * radius)};
-    s.seen = mem_alloc(count);
+    search s = {.box = texel_box_of(texels, width, height, 1), .neck = (int)(NEXT * NECK * radius)};
+    if (!s.box.width)
+        return true;
+    bool   good = patch_marks_create(&s.marks, &s.box);
+    size_t count = (size_t)s.marks.stride * (size_t)s.marks.height;
     s.distance = mem_alloc(count * sizeof *s.distance);
-    s.found = mem_alloc(count * sizeof *s.found);
-    bool good = s.seen && s.distance && s.found;
+    good = good && s.distance;
+    for (size_t i = 0; i < count && good; i++)
+        s.distance[i] = FAR;
     if (good)
         cut(&s, radius);
-    mem_free(s.seen);
     mem_free(s.distance);
-    mem_free(s.found);
+    patch_marks_release(&s.marks);
     return good;
 }

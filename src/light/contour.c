@@ -6,8 +6,10 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <stdlib.h>
 
 #include "base/memory.h"
+#include "light/patches.h"
 
 enum { STEPS_A_RADIUS = 12 };
 static const double LEVEL = 127.5;
@@ -27,7 +29,8 @@ typedef struct path {
     point  *at, *smoothed, *again;
     double *turn; /* at each, where straight lines meet; else 0 */
     int    *corners;
-    int     count, corner_count;
+    double *weights; /* of a Gaussian, from its middle out: `reach` more */
+    int     count, corner_count, reach;
     double  step;
 } path;
 
@@ -127,17 +130,23 @@ static void path_free(path *p)
     mem_free(p->again);
     mem_free(p->turn);
     mem_free(p->corners);
+    mem_free(p->weights);
 }
 
-static bool path_alloc(path *p)
+static bool path_alloc(path *p, double radius)
 {
     size_t n = (size_t)p->count;
+    double deviation = SPREAD * radius / p->step;
+    p->reach = (int)ceil(3 * deviation);
+    p->weights = mem_alloc(((size_t)p->reach + 1) * sizeof *p->weights);
+    for (int k = 0; p->weights && k <= p->reach; k++)
+        p->weights[k] = exp(-0.5 * k * k / (deviation * deviation));
     p->at = mem_alloc(n * sizeof *p->at);
     p->smoothed = mem_alloc(n * sizeof *p->smoothed);
     p->again = mem_alloc(n * sizeof *p->again);
     p->turn = mem_calloc(n, sizeof *p->turn);
     p->corners = mem_alloc(n * sizeof *p->corners);
-    return p->at && p->smoothed && p->again && p->turn && p->corners;
+    return p->at && p->smoothed && p->again && p->turn && p->corners && p->weights;
 }
 
 static bool path_of(const tracing *t, double radius, path *out)
@@ -147,7 +156,7 @@ static bool path_of(const tracing *t, double radius, path *out)
         length += distance(t->found[i], t->found[(i + 1) % t->count]);
     *out = (path){.count = (int)fmax(ceil(length / fmax(radius / STEPS_A_RADIUS, 0.5)), 8)};
     out->step = length / out->count;
-    if (!path_alloc(out))
+    if (!path_alloc(out, radius))
         return false;
     double before = 0;
     for (int i = 0, k = 0; i < out->count; i++) {
@@ -242,14 +251,13 @@ static point mirrored(const path *p, const point *from, int first, int last, int
     return (point){off.x + sign * at.x, off.y + sign * at.y};
 }
 
-static void smooth_piece(const path *p, const point *from, int first, int last, double deviation, point *into)
+static void smooth_piece(const path *p, const point *from, int first, int last, point *into)
 {
-    int reach = (int)ceil(3 * deviation);
     for (int i = 0; i < last; i++) {
         point  sum = {0, 0};
         double weights = 0;
-        for (int k = -reach; k <= reach; k++) {
-            double weight = exp(-0.5 * k * k / (deviation * deviation));
+        for (int k = -p->reach; k <= p->reach; k++) {
+            double weight = p->weights[abs(k)];
             point  at = p->corner_count ? mirrored(p, from, first, last, i + k)
                                         : from[((i + k) % p->count + p->count) % p->count];
             sum.x += weight * at.x;
@@ -260,14 +268,13 @@ static void smooth_piece(const path *p, const point *from, int first, int last, 
     }
 }
 
-static void smooth(const path *p, const point *from, double radius, point *into)
+static void smooth(const path *p, const point *from, point *into)
 {
-    double deviation = SPREAD * radius / p->step;
     if (p->corner_count == 0)
-        smooth_piece(p, from, 0, p->count, deviation, into);
+        smooth_piece(p, from, 0, p->count, into);
     for (int c = 0; c < p->corner_count; c++) {
         int first = p->corners[c], next = c + 1 < p->corner_count ? p->corners[c + 1] : p->corners[0] + p->count;
-        smooth_piece(p, from, first, next - first, deviation, into);
+        smooth_piece(p, from, first, next - first, into);
     }
 }
 
@@ -309,8 +316,8 @@ static bool calm(tracing *t, double radius)
     bool good = path_of(t, radius, &p);
     if (good) {
         find_corners(&p, radius);
-        smooth(&p, p.at, radius, p.smoothed);
-        smooth(&p, p.smoothed, radius, p.again);
+        smooth(&p, p.at, p.smoothed);
+        smooth(&p, p.smoothed, p.again);
         for (int i = 0; i < p.count; i++)
             p.at[i] = (point){2 * p.smoothed[i].x - p.again[i].x, 2 * p.smoothed[i].y - p.again[i].y};
         for (int i = 0; i < p.count; i++)
@@ -337,9 +344,10 @@ bool contours_calm(uint8_t *texels, int width, int height, double radius)
     tracing t = {.texels = texels, .width = width, .height = height};
     t.seen = mem_calloc((size_t)(width + 1) * (size_t)(height + 1), 1);
     t.area = mem_calloc((size_t)(width + 2) * (size_t)height, sizeof *t.area);
-    bool good = t.seen && t.area;
-    for (int y = -1; y < height && good; y++)
-        for (int x = -1; x < width && good; x++)
+    bool      good = t.seen && t.area;
+    texel_box box = texel_box_of(texels, width, height, 0);
+    for (int y = box.y - 1; y < box.y + box.height && good; y++)
+        for (int x = box.x - 1; x < box.x + box.width && good; x++)
             if (!*seen_at(&t, x, y) && cover(&t, x, y) > LEVEL && !(cover(&t, x + 1, y) > LEVEL))
                 good = trace(&t, x, y) && calm(&t, radius);
     if (good)

@@ -3,76 +3,60 @@
 #include <stddef.h>
 
 #include "base/memory.h"
+#include "light/patches.h"
 
 static const double ISLAND = 12, HOLE = 4; /* of the square of the radius */
 
-/* Texels that hang together. */
-typedef struct patch {
-    double area;
-    bool   kept; /* whatever its area */
-} patch;
+enum { THERE = 1, SEEN = 2 }; /* marks */
 
-typedef struct scrap_search {
-    uint8_t *texels, *seen;
-    int     *found; /* the patch's texels, which are looked around in this order */
-    int      width, height;
-    bool     hole;
-} scrap_search;
-
-static int amount(const scrap_search *s, int i)
+static int amount(const uint8_t *texel, bool hole)
 {
-    return s->hole ? 255 - s->texels[4 * i] : s->texels[4 * i];
+    return hole ? 255 - texel[0] : texel[0];
 }
 
-/* All that hangs together with `first`; how many. Islands do so over corners, holes do not. */
-static int gather(scrap_search *s, int first, patch *out)
+static uint8_t *texel_of(const texel_box *box, const patch_marks *p, int index)
 {
-    int count = 1;
-    s->found[0] = first;
-    s->seen[first] = 1;
-    *out = (patch){0};
-    for (int k = 0; k < count; k++) {
-        int at = s->found[k], x = at % s->width, y = at / s->width;
-        out->area += amount(s, at) / 255.0;
-        out->kept = out->kept || (!s->hole && s->texels[4 * at + 1]) || x == 0 || y == 0 || x == s->width - 1 ||
-                    y == s->height - 1;
-        for (int n = 0; n < 9; n++) {
-            int dx = n % 3 - 1, dy = n / 3 - 1, next = at + dy * s->width + dx;
-            if (x + dx < 0 || x + dx >= s->width || y + dy < 0 || y + dy >= s->height || (s->hole && dx && dy))
-                continue;
-            if (!s->seen[next] && amount(s, next)) {
-                s->seen[next] = 1;
-                s->found[count++] = next;
-            }
+    return texel_at(box, index % p->stride - 1, index / p->stride - 1);
+}
+
+/* What was found goes where it is small, unless it must stay. A hole at the box's border is none: all around is
+ * light, and beyond that the picture ends. */
+static void judge(const texel_box *box, const patch_marks *p, int count, bool hole, double least)
+{
+    double area = 0;
+    bool   kept = false;
+    for (int k = 0; k < count && !kept && area < least; k++) {
+        const uint8_t *texel = texel_of(box, p, p->found[k]);
+        area += amount(texel, hole) / 255.0;
+        kept = (!hole && texel[1]) || patch_at_border(p, p->found[k]);
+    }
+    for (int k = 0; k < count && !kept && area < least; k++)
+        texel_of(box, p, p->found[k])[0] = hole ? 255 : 0;
+}
+
+/* Islands hang together over corners, holes do not. */
+static void drop_below(const texel_box *box, patch_marks *p, bool hole, double least)
+{
+    for (int y = 0; y < box->height; y++)
+        for (int x = 0; x < box->width; x++)
+            p->marks[patch_index(p, x, y)] = amount(texel_at(box, x, y), hole) ? THERE : 0;
+    for (int y = 0; y < box->height; y++)
+        for (int x = 0; x < box->width; x++) {
+            int at = patch_index(p, x, y);
+            if (p->marks[at] == THERE)
+                judge(box, p, patch_flood(p, at, SEEN, !hole), hole, least);
         }
-    }
-    return count;
-}
-
-static void drop_below(scrap_search *s, double least)
-{
-    for (int i = 0; i < s->width * s->height; i++) {
-        patch p;
-        if (s->seen[i] || !amount(s, i))
-            continue;
-        int count = gather(s, i, &p);
-        if (!p.kept && p.area < least)
-            for (int k = 0; k < count; k++)
-                s->texels[4 * s->found[k]] = s->hole ? 255 : 0;
-    }
 }
 
 bool scraps_drop(uint8_t *texels, int width, int height, double radius)
 {
-    size_t count = (size_t)width * (size_t)height;
-    bool   good = true;
-    for (int hole = 0; hole < 2 && good; hole++) {
-        scrap_search s = {texels, mem_calloc(count, 1), mem_alloc(count * sizeof *s.found), width, height, hole != 0};
-        good = s.seen && s.found;
-        if (good)
-            drop_below(&s, (hole ? HOLE : ISLAND) * radius * radius);
-        mem_free(s.seen);
-        mem_free(s.found);
-    }
+    texel_box box = texel_box_of(texels, width, height, 1);
+    if (!box.width)
+        return true;
+    patch_marks p;
+    bool        good = patch_marks_create(&p, &box);
+    for (int hole = 0; hole < 2 && good; hole++)
+        drop_below(&box, &p, hole, (hole ? HOLE : ISLAND) * radius * radius);
+    patch_marks_release(&p);
     return good;
 }

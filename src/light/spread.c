@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "light/patches.h"
 
 enum { MEANS = 3 };
 
@@ -42,17 +43,18 @@ static void spread_along(uint8_t *first, size_t step, int count, int reach, floa
 bool coverage_spread(uint8_t *texels, int width, int height, double radius)
 {
     /* The variance of one is (side² - 1) / 12. */
-    int    reach = (int)(0.5 * (sqrt(12.0 / MEANS * 0.25 * radius * radius + 1) - 1) + 0.5);
-    size_t row = 4 * (size_t)width;
-    float *rows = mem_alloc(2 * (size_t)(width > height ? width : height) * sizeof *rows);
+    int       reach = (int)(0.5 * (sqrt(12.0 / MEANS * 0.25 * radius * radius + 1) - 1) + 0.5);
+    size_t    row = 4 * (size_t)width;
+    texel_box box = texel_box_of(texels, width, height, MEANS * (reach + 1));
+    float    *rows = mem_alloc(2 * (size_t)(width > height ? width : height) * sizeof *rows);
     if (!rows)
         return false;
     for (size_t i = 0; i < (size_t)width * (size_t)height; i++)
         texels[4 * i + 2] = texels[4 * i];
-    for (int y = 0; y < height; y++)
-        spread_along(texels + (size_t)y * row + 2, 4, width, reach, rows);
-    for (int x = 0; x < width; x++)
-        spread_along(texels + 4 * (size_t)x + 2, row, height, reach, rows);
+    for (int y = 0; y < box.height; y++)
+        spread_along(texel_at(&box, 0, y) + 2, 4, box.width, reach, rows);
+    for (int x = 0; x < box.width; x++)
+        spread_along(texel_at(&box, x, 0) + 2, row, box.height, reach, rows);
     mem_free(rows);
     return true;
 }

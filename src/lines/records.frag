@@ -54,13 +54,14 @@ uint seen_bit(int place)
     return ((place & 32) == 0 ? half_of.x : half_of.y) >> uint(place & 31) & 1u;
 }
 
-bool is_seen_around(vec3 axis, float at, float size, bool wanted)
+bool is_short_seen(float at, float size)
 {
     int last = int(v_seen_count) - 1, place = clamp(int(at * v_seen_count), 0, last), apart = max(int(APART * v_seen_count / max(size, 1.0) + 0.5), 1);
     return seen_bit(max(place - apart, 0)) + seen_bit(place) + seen_bit(min(place + apart, last)) >= 2u;
 }
-#else
-bool is_seen_around(vec3 axis, float at, float size, bool wanted)
+#endif
+#if !defined(SHORT_EDGES) || defined(ALL_EDGES)
+bool is_long_seen(vec3 axis, float at, float size, bool wanted)
 {
     float apart = APART / max(size, 1e-6);
     vec3 before = mix(v_begin.xyz, v_end.xyz, max(at - apart, 0.0)), behind = mix(v_begin.xyz, v_end.xyz, min(at + apart, 1.0));
@@ -68,6 +69,17 @@ bool is_seen_around(vec3 axis, float at, float size, bool wanted)
     return first == second ? first : third;
 }
 #endif
+
+bool is_seen_around(vec3 axis, float at, float size, bool wanted)
+{
+#ifdef ALL_EDGES
+    return v_seen_count > 0.0 ? is_short_seen(at, size) : is_long_seen(axis, at, size, wanted);
+#elif defined(SHORT_EDGES)
+    return is_short_seen(at, size);
+#else
+    return is_long_seen(axis, at, size, wanted);
+#endif
+}
 
 #if defined(HAS_ID) && PARTS
 uint piece_at(vec2 at)
@@ -130,7 +142,8 @@ void main()
         vec2 normal = vec2(-along.y, along.x) / max(size, 1e-6);
         strength = vec2(v_look.x > RECORDED_OUTLINE && v_look.x < RECORDED_QUIET ? 1.0 : 0.0, max(-v_look.x, 0.0));
 #ifdef SMOOTH_OUTLINES /* have a line only where something is behind them */
-        strength.x = outline_at(axis, normal, judged);
+        if (v_look.x == RECORDED_OUTLINE)
+            strength.x = outline_at(axis, normal, judged);
 #endif
         ink = strength * line_cover(d, length(way_of_line) > 0.01 ? normalize(way_of_line) : normal, half_width);
         wanted = judged || max(strength.x, strength.y) > 0.0 || v_look.x == RECORDED_QUIET ? wanted : 0;

@@ -15,6 +15,7 @@ flat out float v_seen_count; /* of them */
 #else
 #define DRAWS_SMOOTH false
 #endif
+/* ALL_EDGES: both kinds of both at once; of long ones v_seen_count is then 0. */
 uniform mat4 u_clip; /* from the mesh's axes to clip space */
 
 vec3 on_page(vec4 clip)
@@ -93,7 +94,7 @@ const int PARTS_OF_EDGE = 4;
 const float POORLY = 0.3;
 const int AGAINST = 2, SURELY = 2, OF_SHORT = 4; /* of no more positions than these one will do */
 
-bool is_hidden(float size)
+bool is_hidden(float size, bool is_short)
 {
     int positions = min(int(ceil(max(size, STEP) / STEP)), MOST), parts = min(positions, PARTS_OF_EDGE), each = (positions + parts - 1) / parts;
     int found = 0, score = 0, surely = positions <= OF_SHORT ? 1 : SURELY, turns = each * parts;
@@ -110,13 +111,13 @@ bool is_hidden(float size)
         uint bit = weight >= ENOUGH ? 1u << uint(place & 31) : 0u;
         ivec4 word = ivec4(place >> 5) - ivec4(0, 1, 2, 3);
         v_seen |= bit * uvec4(equal(word, ivec4(0)));
-        turns = hidden ? 0 : turns;
+        turns = hidden || (decided && !is_short) ? 0 : turns;
 #else
         turns = decided ? 0 : turns;
 #endif
     }
 #ifdef SHORT_EDGES
-    v_seen_count = float(each * parts);
+    v_seen_count = is_short ? float(each * parts) : 0.0;
 #endif
     return found == 0 ? size <= STEP * float(MOST) : score < 0;
 }
@@ -134,7 +135,10 @@ void main()
     if (code != 0.0)
         place_edge(code);
     float size = distance(v_begin.xy, v_end.xy);
-    bool wanted = v_look.x != 0.0 && (size <= LONGEST_SHORT) == DRAWS_SHORT && (v_look.x == RECORDED_OUTLINE) == DRAWS_SMOOTH;
-    if (!wanted || is_hidden(size))
+    bool is_short = size <= LONGEST_SHORT, wanted = v_look.x != 0.0;
+#ifndef ALL_EDGES
+    wanted = wanted && is_short == DRAWS_SHORT && (v_look.x == RECORDED_OUTLINE) == DRAWS_SMOOTH;
+#endif
+    if (!wanted || is_hidden(size, is_short))
         gl_Position = NOWHERE;
 }

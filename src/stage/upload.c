@@ -382,6 +382,8 @@ void upload_release(upload *u, gpu *g)
         stroke_store_destroy(&u->strokes[i], g);
     gpu_target_release(g, u->lit.depth);
     mem_free(u->lit.parts);
+    mem_free(u->ground_shadow.fallen);
+    mem_free(u->ground_shadow.calmed);
     mem_free(u->part_frame_values);
     mem_free(u->rest_frame_values);
     gpu_target_release(g, u->operand_table);

@@ -99,6 +99,15 @@ typedef struct seen_by_light {
     bool        *parts;            /* that throw shadows */
 } seen_by_light;
 
+/* The shadow on the ground as it fell last, and as it was then drawn with a calm border: what falls so again need not
+ * be traced again. */
+typedef struct calmed_shadow {
+    uint8_t *fallen, *calmed; /* texels of the box; NULL: nothing is kept */
+    int      width, height;
+    double   smoothing; /* texels */
+    bool     softened;
+} calmed_shadow;
+
 typedef struct upload {
     uint64_t        revision, identity; /* of the scene */
     double          crease_angle;       /* radians */
@@ -132,6 +141,7 @@ typedef struct upload {
     csg_plane      *planes;  /* of all solids, in their own axes; items know theirs */
     size_t          plane_count, plane_capacity;
     seen_by_light   lit;
+    calmed_shadow   ground_shadow;
     float (*operands)[8]; /* per operand: linear colour, part, index of a cut face, whether it is one, 0 */
     size_t        operand_capacity;
     gpu_texture  *operand_table;     /* the same, two texels an operand, 512 operands a row; NULL: no solids */

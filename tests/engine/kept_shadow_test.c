@@ -51,7 +51,8 @@ static void draw(lmn_renderer *r, const lmn_scene *s, const wish *w, uint8_t *pi
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
     snprintf(text, sizeof text,
              "{\"version\":2,\"name\":\"s\",\"doc\":\"x.\",\"scene\":{\"shadows\":true,\"shadow_softness\":%g,"
-             "\"light_direction\":%s},\"rules\":[{\"select\":\"%s\",\"surface\":\"lambert\"}]}",
+             "\"ground\":\"cast\",\"ground_smoothing\":20,\"light_direction\":%s},\"rules\":[{\"select\":\"%s\","
+             "\"surface\":\"lambert\"}]}",
              w->softness, w->light, w->select);
     DO(lmn_look_parse(&look, text, "s.json", &error));
     desc.width = w->side;
@@ -122,8 +123,36 @@ static void pictures_know_of_every_change(void **state)
     lmn_renderer_destroy(&r);
 }
 
+/* Mirrored, the shadow on the ground lies in as large a box of the page, and is another one. */
+static void shadows_on_the_ground_too(void **state)
+{
+    (void)state;
+    static uint8_t    kept[BYTES], fresh[BYTES], before[BYTES];
+    lmn_scene        *s = NULL;
+    lmn_renderer     *r = NULL;
+    lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
+    wish              w = {"[0.5,1,0]", "*", {0, 9, 9}, SIDE, 0};
+    DO(lmn_renderer_create(&r, &desc, &error));
+    DO(lmn_scene_create(&s, &error));
+    add_box(s, "tower", (double[]){-1, 0, -1}, (double[]){1, 4, 1});
+    draw(r, s, &w, before);
+    const void *calmed = r->up.ground_shadow.calmed;
+    assert_non_null(calmed);
+    draw(r, s, &w, kept);
+    assert_ptr_equal(r->up.ground_shadow.calmed, calmed);
+    assert_memory_equal(kept, before, BYTES);
+    w.light = "[-0.5,1,0]";
+    draw(r, s, &w, kept);
+    draw_fresh(s, &w, fresh);
+    assert_memory_not_equal(kept, before, BYTES);
+    assert_memory_equal(kept, fresh, BYTES);
+    lmn_scene_destroy(&s);
+    lmn_renderer_destroy(&r);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pictures_know_of_every_change)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pictures_know_of_every_change),
+                                       cmocka_unit_test(shadows_on_the_ground_too)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
