@@ -120,6 +120,6 @@ vec4 surface_colour(surface_point p)
     vec3 own = clamp(shown(max(mix(vec3(grey), p.albedo.rgb, u_saturation), vec3(0.0))), 0.02, 1.0);
     vec3 parted = 1.0 + DRIFT * u_flow * flow.y * vec3(1.0, 0.1, -1.0);
     vec3 glaze = pow(clamp(u_shade.rgb, 0.02, 1.0), further * uneven * kept * (2.0 * parted - 1.0));
-    return vec4(u_paper.rgb * pow(own, pigment * parted) * glaze, 1.0); /* light goes through as much pigment as there is: Beer's law */
+    return vec4(mix(vec3(1.0), u_paper.rgb, u_paper.a) * pow(own, pigment * parted) * glaze, 1.0); /* light goes through as much pigment as there is, Beer's law; what is transparent will lie on white */
 }
 #endif
