@@ -17,13 +17,7 @@ vec2 paper_at(vec4 position, vec2 pixel, float shift, float level)
     return textureLod(t_paper, vec3(position.x * pixel + position.y * vec2(-pixel.y, pixel.x) + position.zw + vec2(shift, 0.0), 0.0), level).rg;
 }
 
-/* Two octaves as one: the fraction of the sheet where their weighted sum is less. */
-float together(vec2 contacts, float fraction)
-{
-    float most = max(fraction, 1.0 - fraction), least = max(1.0 - most, 1e-4), x = mix(contacts.x, contacts.y, fraction), y = 1.0 - x;
-    float ends = 0.5 / (least * most);
-    return x < least ? x * x * ends : x > most ? 1.0 - y * y * ends : (x - 0.5 * least) / most;
-}
+#include "gpu/even_sum.glsl"
 
 /* Contact, and light of the bare sheet. */
 vec2 paper_here(vec2 pixel)
@@ -36,7 +30,7 @@ vec2 paper_here(vec2 pixel)
     vec2 here = paper_at(u_paper_position, pixel, begins * u_paper_fractions.z, u_paper_levels.x);
 #if MOTION == 2
     vec2 finer = paper_at(u_paper_finer, pixel, begins * u_paper_fractions.w, u_paper_levels.y);
-    here = vec2(together(vec2(here.x, finer.x), u_paper_fractions.x), mix(here.y, finer.y, u_paper_fractions.x));
+    here = vec2(even_sum(vec2(here.x, finer.x), u_paper_fractions.x), mix(here.y, finer.y, u_paper_fractions.x));
 #endif
     return vec2(here.x * (255.0 / 256.0) + 0.5 / 256.0, here.y);
 }

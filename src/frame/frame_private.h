@@ -135,6 +135,11 @@ view_camera ground_camera(const ground_plane *ground, const ground_square *s, bo
 gpu_texture *ground_depth(frame *f, const view_camera *camera);
 /* From eye space to 0 … 1 over what the eye below sees. */
 mat4 ground_map_from_eye(const frame *f, const view_camera *below);
+/* For a technique that draws the shadow: begins the pictures that the ground has as a figure has its own, with the
+ * program that fills them; false: there is none. Then the ground is shaded and laid onto the page, over it or instead
+ * of it, and its pictures are given back. */
+bool ground_buffers(frame *f, figure_state *s, const char *shader, text *prelude);
+void ground_shade(frame *f, figure_state *s, bool over);
 /* ground_cast.c: the one that the first light throws. */
 void ground_cast(frame *f);
 /* ground_height.c: how high over the ground it is what throws that, as a fraction of the light that is kept off: 1

@@ -279,30 +279,36 @@ static void lay_tone(frame *f, figure_state *s, const view_camera *below, gpu_te
     gpu_draw_screen(f->g);
 }
 
-/* The ground as a figure has its pictures, before it is shaded. */
-static void fill_buffers(frame *f, figure_state *s, const view_camera *below, gpu_texture *map)
+bool ground_buffers(frame *f, figure_state *s, const char *shader, text *prelude)
 {
     static const target filled[] = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ALBEDO};
-    text                prelude = {0};
     gpu_pass            pass = {.colour_count = 3, .clear = true};
     for (int k = 0; k < 3; k++) {
         pass.colours[k] = s->targets[filled[k]] = frame_acquire(f, filled[k]);
         target_empty(&target_rows[filled[k]], s->far, pass.clear_values[k]);
     }
-    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/ground_buffer.frag", &prelude);
+    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", shader, prelude);
     if (!p || gpu_failed(f->g))
-        return;
+        return false;
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
     memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
     gpu_pass_begin(f->g, &pass);
     gpu_use(f->g, p, (gpu_state){0});
     frame_set_common(f, s);
-    ground_set(f, below, map);
     gpu_set_uint(f->g, "u_ground_part", (unsigned)f->up->part_count + 1); /* stage/part_frames.c has a row for it */
+    return true;
+}
+
+static void fill_buffers(frame *f, figure_state *s, const view_camera *below, gpu_texture *map)
+{
+    text prelude = {0};
+    if (!ground_buffers(f, s, "light/ground_buffer.frag", &prelude))
+        return;
+    ground_set(f, below, map);
     gpu_draw_screen(f->g);
 }
 
-static void lay_shaded(frame *f, const figure_state *s)
+static void lay_shaded(frame *f, const figure_state *s, bool over)
 {
     text         prelude = {0};
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/ground_lay.frag", &prelude);
@@ -311,10 +317,20 @@ static void lay_shaded(frame *f, const figure_state *s)
         return;
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
     gpu_pass_begin(f->g, &pass);
-    gpu_use(f->g, p, (gpu_state){0});
+    gpu_use(f->g, p, (gpu_state){.blend = over ? GPU_BLEND_OVER : GPU_BLEND_NONE});
     gpu_set_texture(f->g, "t_shade", s->targets[TARGET_SHADE], false);
     gpu_set_texture(f->g, "t_id", s->targets[TARGET_ID], false);
     gpu_draw_screen(f->g);
+}
+
+void ground_shade(frame *f, figure_state *s, bool over)
+{
+    if (!gpu_failed(f->g))
+        raster_shade_deferred(f, s);
+    if (!gpu_failed(f->g))
+        lay_shaded(f, s, over);
+    for (int i = 0; i < TARGET_COUNT; i++)
+        gpu_target_release(f->g, s->targets[i]);
 }
 
 static void draw_shaded(frame *f, figure_state *s, const view_camera *below, gpu_texture *map)
@@ -323,12 +339,7 @@ static void draw_shaded(frame *f, figure_state *s, const view_camera *below, gpu
     s->geometry = s->targets[TARGET_NORMAL_DEPTH];
     if (!gpu_failed(f->g))
         passes_prepare(f, s);
-    if (!gpu_failed(f->g))
-        raster_shade_deferred(f, s);
-    if (!gpu_failed(f->g))
-        lay_shaded(f, s);
-    for (int i = 0; i < TARGET_COUNT; i++)
-        gpu_target_release(f->g, s->targets[i]);
+    ground_shade(f, s, false);
 }
 
 /* Can the figure's medium draw it? */

@@ -145,17 +145,51 @@ static void set_height(frame *f, const cast_maps *maps)
     gpu_set_texture(f->g, "t_ground_height", maps->height, true);
 }
 
-static void lay_cast(frame *f, const figure_state *s, const cast_maps *maps)
+static void set_cast(frame *f, const cast_maps *maps)
 {
     const scene_values *v = values_of(f);
     const colour        c = v->ground_colour;
-    bool                hatched = v->ground_hatch > 0, soft = !maps->dark;
     double              angle = (double)v->ground_angle * (3.14159265358979323846 / 180), plane[4];
+    ground_plane_set(f, plane);
+    gpu_set_float(f->g, "u_ground_strength", v->ground_strength);
+    gpu_set_float(f->g, "u_ground_edge", v->ground_edge);
+    if (maps->dark)
+        gpu_set_texture(f->g, "t_ground_dark", maps->dark, false);
+    set_height(f, maps);
+    if (v->ground_hatch > 0) {
+        gpu_set_float(f->g, "u_ground_hatch", v->ground_hatch);
+        gpu_set_vec2(f->g, "u_ground_along", (float)cos(angle), (float)sin(angle));
+    }
+    gpu_set_vec4(f->g, "u_ground_colour", (float[]){c.r, c.g, c.b, c.a});
+}
+
+/* Does the figure's medium draw it? */
+static bool is_drawn_by(const frame *f, const figure *fig)
+{
+    const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
+    const surface_row   *row = surface ? surface->technique->surface : NULL;
+    return row && row->casts_on_ground && !fig->layered && !values_of(f)->ground_flat &&
+           !(values_of(f)->ground_hatch > 0);
+}
+
+static void lay_cast(frame *f, figure_state *s, const cast_maps *maps)
+{
+    const scene_values *v = values_of(f);
+    bool                soft = !maps->dark, drawn = is_drawn_by(f, s->figure);
     text                prelude = {0};
-    text_append(&prelude, "%s%s%s%s%s", hatched ? "#define HATCHED\n" : "", soft ? "#define SOFT\n" : "",
+    text_append(&prelude, "%s%s%s%s%s%s", v->ground_hatch > 0 ? "#define HATCHED\n" : "", soft ? "#define SOFT\n" : "",
                 !soft && v->ground_edge > 0 ? "#define EDGED\n" : "", maps->height ? "#define FADING\n" : "",
-                v->ground_flat ? "#define FLAT\n" : "");
+                v->ground_flat ? "#define FLAT\n" : "", drawn ? "#define SHADED\n" : "");
     target_declare(&prelude, &target_rows[TARGET_SHADOW]);
+    if (drawn) {
+        memcpy(s->around, s->pixels, sizeof s->around);
+        if (ground_buffers(f, s, "light/ground_cast.frag", &prelude)) {
+            set_cast(f, maps);
+            gpu_draw_screen(f->g);
+        }
+        ground_shade(f, s, true);
+        return;
+    }
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/ground_cast.frag", &prelude);
     gpu_pass     pass = {.colours = {f->page}, .colour_count = 1};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
@@ -164,17 +198,7 @@ static void lay_cast(frame *f, const figure_state *s, const cast_maps *maps)
     gpu_pass_begin(f->g, &pass);
     gpu_use(f->g, p, (gpu_state){.blend = GPU_BLEND_OVER});
     frame_set_common(f, s);
-    ground_plane_set(f, plane);
-    gpu_set_float(f->g, "u_ground_strength", v->ground_strength);
-    gpu_set_float(f->g, "u_ground_edge", v->ground_edge);
-    if (maps->dark)
-        gpu_set_texture(f->g, "t_ground_dark", maps->dark, false);
-    set_height(f, maps);
-    if (hatched) {
-        gpu_set_float(f->g, "u_ground_hatch", v->ground_hatch);
-        gpu_set_vec2(f->g, "u_ground_along", (float)cos(angle), (float)sin(angle));
-    }
-    gpu_set_vec4(f->g, "u_ground_colour", (float[]){c.r, c.g, c.b, c.a});
+    set_cast(f, maps);
     gpu_draw_screen(f->g);
 }
 

@@ -8,7 +8,15 @@ uniform float u_ground_edge;    /* width of the line, pixels */
 uniform vec3  u_shadow_light;   /* towards it, eye space */
 uniform float u_shadow_nearest; /* nothing is nearer to the light */
 uniform float u_cone;           /* half the light's width at distance 1; both in the map's units */
+#ifdef SHADED
+/* As light/ground_buffer.frag: for a technique that draws it. */
+uniform uint u_ground_part;
+layout(location = 0) out vec4  out_normal_depth;
+layout(location = 1) out uvec4 out_id;
+layout(location = 2) out vec4  out_albedo;
+#else
 layout(location = 0) out vec4 out_0;
+#endif
 
 #ifdef SOFT
 const int  SEARCHED = 24, COMPARED = 48;
@@ -228,5 +236,13 @@ void main()
 #ifdef EDGED
     shade = max(shade, edge_at(gl_FragCoord.xy));
 #endif
+#ifdef SHADED
+    if (shade <= 0.0)
+        discard;
+    out_normal_depth = vec4(u_ground_plane.xyz, -on_ground(gl_FragCoord.xy).z);
+    out_id = uvec4(u_ground_part, 0u, 0u, 0u);
+    out_albedo = vec4(u_ground_colour.rgb, 1.0 - u_ground_colour.a * shade);
+#else
     out_0 = vec4(u_ground_colour.rgb, 1.0) * (u_ground_colour.a * shade);
+#endif
 }

@@ -3,9 +3,11 @@
  * (Praun 2001), directions those of the coordinates (Müller, section 4), averaged over whole planes. Which layers lie
  * over each other is the medium's: one colour, a warm one and a cool one, or white and black on toned paper. Teeth
  * are thresholds of a stroke's tone, as in Durand 2001. */
+#include "base/random.h"
 #include "halftone/paper.h"
 #include "halftone/tonal_art_map.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "surface/halftone/halftone.h"
@@ -18,7 +20,7 @@ typedef struct stick_values {
     float           darkest, scale, width, length, vary, smear, tooth, tooth_size, gloss, accent, lean, opacity;
 } stick_values;
 
-enum { SIDE = 256, TONES = 6, MEDIUM_TONED = 2, ROUNDS = 4 };
+enum { SIDE = 256, TONES = 6, MEDIUM_TONED = 2, ROUNDS = 4, STREAM = 0x571c };
 
 static const char *const medium_names[] = {"one", "pair", "toned", NULL};
 
@@ -50,7 +52,8 @@ static const param params[] = {
                     .doc = "How much of what is left of the paper a stroke covers: strokes of much stand alone, those "
                            "of little lie over each other."),
     PARAM_FLOAT_ROW(stick_values, smear, .def = 0.3, .min = 0, .max = 1, .unit = UNIT_FRACTION,
-                    .doc = "Fraction of the tone that is rubbed smooth under the strokes."),
+                    .doc =
+                        "Fraction of the darkest tone that is rubbed smooth under the strokes; less of lighter ones."),
     PARAM_FLOAT_ROW(stick_values, tooth, .def = 0.7, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How far the paper's teeth break strokes up."),
     PARAM_ENUM_ROW(stick_values, tooth_paper, .names = paper_names, .def = PAPER_ROUGH, .cpu_only = true,
@@ -70,13 +73,34 @@ static const param params[] = {
 static void describe_strokes(text *out, const void *values)
 {
     const stick_values *v = values;
-    text_append(out, "3 width=%.6g length=%.6g opacity=%.6g seed=%d", (double)v->width, (double)v->length,
+    text_append(out, "4 width=%.6g length=%.6g opacity=%.6g seed=%d", (double)v->width, (double)v->length,
                 (double)v->opacity, v->map_seed);
+}
+
+/* What the side of a stick leaves at once: heavier along one of its edges, set down hard and lifted again, each of its
+ * fibres as far as it touches. */
+static lmn_status make_side(stroke_image *out, uint32_t seed, lmn_error *error)
+{
+    enum { COLUMNS = 192, ROWS = 20 };
+    static const double RAGGED = 0.07, LIGHT_EDGE = 0.5, LIFTED = 0.3, UNEVEN = 0.35;
+    float               ink[COLUMNS * ROWS];
+    random_source       r = random_start(seed, STREAM);
+    for (int y = 0; y < ROWS; y++) {
+        double across = (y + 0.5) / ROWS, edge = fmin(fmin(y + 0.75, ROWS - y - 0.25) / 1.5, 1);
+        double first = RAGGED * random_unit(&r), last = 1 - RAGGED * random_unit(&r);
+        double fibre = edge * (1 - LIGHT_EDGE * across) * (1 - UNEVEN * random_unit(&r));
+        for (int x = 0; x < COLUMNS; x++) {
+            double along = (x + 0.5) / COLUMNS, inside = fmin(along - first, last - along) * COLUMNS / 4;
+            ink[y * COLUMNS + x] = (float)(fibre * (1 - LIFTED * along) * fmax(0, fmin(inside, 1)));
+        }
+    }
+    return stroke_image_of_ink(out, ink, COLUMNS, ROWS, error);
 }
 
 static lmn_status make_strokes(mip_chain *out, const void *values, lmn_error *error)
 {
     const stick_values *v = values;
+    stroke_image        side;
     const tam_options   options = {.side = SIDE,
                                    .tones = TONES,
                                    .darkest = 0.9,
@@ -86,9 +110,13 @@ static lmn_status make_strokes(mip_chain *out, const void *values, lmn_error *er
                                    .uneven = 0.5f,
                                    .grain = 0.5,
                                    .placement = TAM_BEST_FIT,
+                                   .image = &side,
                                    .seed = (uint32_t)v->map_seed};
     memset(out, 0, sizeof *out);
-    lmn_status status = tonal_art_map(out, NULL, &options, error);
+    lmn_status status = make_side(&side, options.seed, error);
+    if (status == LMN_OK)
+        status = tonal_art_map(out, NULL, &options, error);
+    stroke_image_release(&side);
     out->fact = 0.9f; /* which the shader tells tones by */
     return status;
 }

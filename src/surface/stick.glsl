@@ -8,6 +8,16 @@
 surface_point s_point;
 rest_position s_rest;
 float         s_contact; /* of the paper here, 0 … 1: how early a stick touches it */
+vec2          s_hand;          /* where the hand is, pixels along and across the stroke */
+float         s_pressed = 0.5; /* how hard the hand presses here, 0 … 1 */
+
+const float BROAD = 18.0;  /* how much wider the hand's pressure varies than teeth do */
+const float ALONG = 0.35;  /* of that along strokes, and */
+const float ACROSS = 1.5;  /* across them */
+const float PRESSED = 0.3; /* weight of it against theirs */
+const float UNEVEN = 0.3;  /* how much of a rubbed tone goes with it */
+
+#include "gpu/even_sum.glsl"
 
 #define MIXES_TONES 1
 #include "surface/halftone/tones.glsl"
@@ -18,11 +28,16 @@ vec2 turn_of_degrees(float degrees)
     return vec2(cos(degrees * 0.017453293), sin(degrees * 0.017453293));
 }
 
+const float FIRST = 1.5; /* how much broader strokes are the first time over */
+float s_size = 1.0;      /* of strokes, times their own */
+
+#define STROKE_SIZE s_size
 #include "surface/halftone/map_strokes.glsl"
 
-/* What one time over leaves, before the paper has its say: even in darkness up to 1. */
+/* What one time over leaves, before the paper has its say: even in darkness up to 1. First with the whole side of the stick, then with less of it. */
 float gone_over(float darkness, int layer)
 {
+    s_size = layer == 0 ? FIRST : 1.0;
 #ifdef HAS_FORM
     s_between = 0.5 * float(layer);
 #endif
@@ -48,27 +63,52 @@ float on_teeth(float cover)
     return mix(cover, cover < 0.5 ? left : 1.0 - left, u_tooth);
 }
 
-/* The fraction of the paper that one stick covers for a darkness: part of it is rubbed smooth, the rest is strokes over that. */
+/* How much of a darkness is rubbed smooth under the strokes: what is dark has been gone over with the hand, in what is light strokes stand alone. */
+float rubbed_of(float darkness)
+{
+    return 1.0 - pow(1.0 - darkness, u_smear * mix(0.3, 1.0, darkness));
+}
+
+/* The hand rubs here more and there less. */
+float rubbed_here(float rubbed)
+{
+    return rubbed + min(rubbed, 1.0 - rubbed) * UNEVEN * (2.0 * s_pressed - 1.0);
+}
+
+/* The fraction of the paper that one stick covers for a darkness. */
 float stick_cover(float darkness, int layer)
 {
-    float rubbed = 1.0 - pow(1.0 - darkness, u_smear);
-    float strokes = 1.0 - (1.0 - darkness) / max(1.0 - rubbed, 1e-4);
-    return 1.0 - (1.0 - rubbed) * (1.0 - on_teeth(gone_over(strokes, layer)));
+    float rubbed = rubbed_of(darkness), strokes = 1.0 - (1.0 - darkness) / max(1.0 - rubbed, 1e-4);
+    return 1.0 - (1.0 - rubbed_here(rubbed)) * (1.0 - on_teeth(gone_over(strokes, layer)));
 }
 
 float stick_cover_twice(float darkness)
 {
-    float rubbed = 1.0 - pow(1.0 - darkness, u_smear);
-    float strokes = 1.0 - sqrt((1.0 - darkness) / max(1.0 - rubbed, 1e-4));
+    float rubbed = rubbed_of(darkness), strokes = 1.0 - sqrt((1.0 - darkness) / max(1.0 - rubbed, 1e-4));
     float cover = 1.0 - (1.0 - gone_over(strokes, 0)) * (1.0 - gone_over(strokes, 1));
-    return 1.0 - (1.0 - rubbed) * (1.0 - on_teeth(cover));
+    return 1.0 - (1.0 - rubbed_here(rubbed)) * (1.0 - on_teeth(cover));
 }
 
-float contact_here()
+/* Where the hand is: its pressure varies less along strokes than across them. */
+vec2 hand_at(vec2 at)
+{
+#ifdef HAS_FORM
+    stroke_plane first = plane_of(s_point, s_rest, 0, u_angle), second = plane_of(s_point, s_rest, 1, u_angle);
+    stroke_plane s = first.weight > second.weight ? first : second;
+    return s.at * page_unit() * vec2(ALONG, ACROSS);
+#else
+    return at;
+#endif
+}
+
+/* How early the paper is touched at a place of it: by its teeth, and by how hard the hand presses there. */
+float contact_at(vec2 at)
 {
 #ifdef HAS_TEETH
-    vec2 at = (gl_FragCoord.xy - u_anchor) / (u_teeth_facts.x * u_tooth_size * 0.25);
-    return textureLod(t_teeth, vec3(at, 0.0), 0.0).r * (255.0 / 256.0) + 0.5 / 256.0;
+    vec2 texel = at / (u_teeth_facts.x * u_tooth_size * 0.25);
+    vec2 found = vec2(textureLod(t_teeth, vec3(texel, 0.0), 0.0).r, textureLod(t_teeth, vec3((s_hand + at - gl_FragCoord.xy + u_anchor) / (u_teeth_facts.x * u_tooth_size * 0.25 * BROAD) + vec2(0.31, 0.57), 0.0), 0.0).r) * (255.0 / 256.0) + 0.5 / 256.0;
+    s_pressed = found.y;
+    return even_sum(found, PRESSED);
 #else
     return 0.5;
 #endif
@@ -92,6 +132,9 @@ vec4 two_sticks(vec4 paper, vec3 own, float darkness)
     return vec4(paper.rgb * left, paper.a);
 }
 #elif MEDIUM == 2
+const float BOTH = 0.18; /* of the sticks at the paper's own tone, */
+const float SPAN = 0.4; /* and how far from it, of all there is to either side, they lie together */
+
 /* White from the paper's own tone up, black from there down. */
 vec4 toned(vec4 paper, vec3 own, float tone)
 {
@@ -99,9 +142,16 @@ vec4 toned(vec4 paper, vec3 own, float tone)
     float w = dot(white, LUMINANCE), b = dot(black, LUMINANCE), g = dot(paper.rgb, LUMINANCE);
     float up = max(w - g, 0.02) * u_darkest, down = max(g - b, 0.02) * u_darkest, middle = down / (up + down);
     float above = clamp((tone - middle) / (1.0 - middle), 0.0, 1.0), below = clamp((middle - tone) / middle, 0.0, 1.0);
-    bool lit = above > 0.0;
-    float cover = stick_cover_twice((lit ? above : below) * u_darkest);
-    return mix(paper, vec4(lit ? white : black, 1.0), cover);
+    /* Around the paper's own tone some of both lies, which together leave the tone. */
+    float both = BOTH * max(1.0 - max(above, below) / SPAN, 0.0), dark = min(below + both, 1.0) * u_darkest;
+    float wanted = g + up * above - down * below, light = clamp(((wanted - b * dark) / (1.0 - dark) - g) / max(w - g, 0.02), 0.0, u_darkest);
+    vec4 page = paper;
+    if (light > 0.0)
+        page = mix(page, vec4(white, 1.0), stick_cover_twice(light));
+    s_contact = contact_at(gl_FragCoord.xy - u_anchor + vec2(337.0, 89.0) * page_unit());
+    if (dark > 0.0)
+        page = mix(page, vec4(black, 1.0), stick_cover_twice(dark));
+    return page;
 }
 #endif
 
@@ -109,7 +159,8 @@ vec4 surface_colour(surface_point p)
 {
     s_point = p;
     s_rest = position_at_rest(p);
-    s_contact = contact_here();
+    s_hand = hand_at(gl_FragCoord.xy - u_anchor);
+    s_contact = contact_at(gl_FragCoord.xy - u_anchor);
     float tone = tone_of_light(p, light_of(p));
 #ifdef ON_GROUND
     vec3 own = vec3(1.0); /* the ground has no colour of its own */

@@ -164,6 +164,9 @@ typedef struct surface_row {
     /* May it draw the shadow on the ground, too, on a page of this colour? Its tone there is p.albedo.a (ON_GROUND).
      * NULL: no. */
     bool (*on_ground)(const void *values, colour ground);
+    /* It draws a shadow that is thrown on the ground, whose colour is p.albedo.rgb, too, as something to be laid over
+     * the page. */
+    bool               casts_on_ground;
     const mark_source *marks; /* what is drawn over it; NULL: nothing */
     /* As vectors. */
     bool (*as_fill)(colour *out, const void *values); /* its one colour, sRGB; false: it has more. NULL: it has more */

@@ -408,9 +408,9 @@ static bool is_near_border(const signed char *truth, int at, int reach)
     return false;
 }
 
-static bool shoot_cast(shot *out, const shape *model, const char *more, bool orthographic)
+static bool shoot_cast_with(shot *out, const shape *model, const char *more, const char *surface, bool orthographic)
 {
-    char      look[600];
+    char      look[700];
     shot_view view = {.width = CAST_SIDE,
                       .height = CAST_SIDE,
                       .eye = {3, 7, 9},
@@ -422,9 +422,14 @@ static bool shoot_cast(shot *out, const shape *model, const char *more, bool ort
         look, sizeof look,
         "{\"version\":2,\"name\":\"f\",\"doc\":\"x.\",\"scene\":{\"ground\":\"cast\",\"ground_colour\":\"#000000\","
         "\"light_direction\":[-0.7,0.75,0.3],%s},\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\","
-        "\"surface\":\"flat\"}]}",
-        more);
+        "\"surface\":%s}]}",
+        more, surface);
     return shot_of_shape(out, model, "cast.glb", look, NULL, &view);
+}
+
+static bool shoot_cast(shot *out, const shape *model, const char *more, bool orthographic)
+{
+    return shoot_cast_with(out, model, more, "\"flat\"", orthographic);
 }
 
 /* How dark a soft shadow is, over all pixels of ground that some of the light's disc does not reach, against the
@@ -667,6 +672,46 @@ static double mean_dark(const shot *s, const signed char *truth, dvec light, dou
 }
 
 /* What is thrown from higher up is paler; what stands there throws all of it. */
+/* Of watercolour they are washes: as dark as any other inside, with a rim where they end, as wide as it is told to be.
+ */
+static void cast_shadows_are_washed(void)
+{
+    const dvec light = dvec_of(-0.7, 0.75, 0.3);
+    shape      model = {0};
+    double     inside[2] = {0}, border[2] = {0};
+    shape_box(&model, "block", dvec_of(cast_low[0], cast_low[1], cast_low[2]),
+              dvec_of(cast_high[0], cast_high[1], cast_high[2]));
+    for (int pools = 0; pools < 2; pools++) {
+        shot s;
+        int  counts[2] = {0};
+        if (!shoot_cast_with(&s, &model, "\"ground_strength\":0.5",
+                             pools ? "{\"technique\":\"watercolour\",\"flow\":0,\"pool\":\"6px\",\"pooling\":1}"
+                                   : "{\"technique\":\"watercolour\",\"flow\":0,\"pool\":\"6px\",\"pooling\":0}",
+                             false))
+            continue;
+        signed char *truth = cast_truth(&s, light);
+        for (int i = 0; i < CAST_SIDE * CAST_SIDE; i++) {
+            if (truth[i] != 1 || is_near_border(truth, i, 1))
+                continue;
+            bool near = is_near_border(truth, i, 3);
+            if (!near && is_near_border(truth, i, 9))
+                continue;
+            *(near ? &border[pools] : &inside[pools]) += 1 - s.picture[4 * i] / 255.0;
+            counts[near]++;
+        }
+        inside[pools] /= fmax(counts[0], 1);
+        border[pools] /= fmax(counts[1], 1);
+        check_at_least("ground", counts[0], 1000, "pixels inside the shadow");
+        free(truth);
+        shot_release(&s);
+    }
+    check_near("ground", inside[0], 0.5, 0.01, "darkness of a wash without pools");
+    check_near("ground", border[0], 0.5, 0.01, "  beside its border");
+    check_near("ground", inside[1], 0.5, 0.01, "with pools, inside");
+    check_at_least("ground", border[1], 0.55, "  beside the border");
+    shape_release(&model);
+}
+
 static void cast_shadows_fade(void)
 {
     const dvec light = dvec_of(-0.7, 0.75, 0.3);
@@ -777,6 +822,7 @@ int main(int argc, char **argv)
         {"scraps", scraps_of_shadow_are_left_out},
         {"corners", calm_shadows_keep_corners},
         {"fade", cast_shadows_fade},
+        {"washed", cast_shadows_are_washed},
         {"feet", dark_tone_lies_at_feet},
     };
     int status = check_main(argc, argv, "ground", cases, sizeof cases / sizeof *cases);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "hatch_truth.h"
 #include "shape.h"
 #include "shot.h"
 
@@ -88,17 +89,32 @@ static void faces_have_their_own_strokes(void)
     shape_release(&model);
 }
 
-static bool wall(shot *out, const shape *model, const char *look, int finer)
+static bool wall(shot *out, const shape *model, const char *look, int finer, double tone)
 {
-    int       side = finer * SIDE;
-    shot_view view = {.width = side,
-                      .height = side,
-                      .dpi = 96 * finer,
-                      .eye = {0, 0, 5},
-                      .up = {0, 1, 0},
-                      .orthographic = true,
-                      .without_maps = true};
-    return shot_of_shape(out, model, "stick_wall.glb", look, one_tone, &view);
+    int         side = finer * SIDE;
+    char        text[32];
+    const char *changes[] = {"surface.shadow",
+                             text,
+                             "surface.light",
+                             text,
+                             "surface.texture",
+                             "0",
+                             "scene.ground",
+                             "none",
+                             "lines.operator",
+                             "none",
+                             "perturb.technique",
+                             "none",
+                             NULL};
+    shot_view   view = {.width = side,
+                        .height = side,
+                        .dpi = 96 * finer,
+                        .eye = {0, 0, 5},
+                        .up = {0, 1, 0},
+                        .orthographic = true,
+                        .without_maps = true};
+    snprintf(text, sizeof text, "%.9g", tone);
+    return shot_of_shape(out, model, "stick_wall.glb", look, changes, &view);
 }
 
 /* Strokes and teeth are lengths on paper: a picture of twice the size is the same drawing, finer. */
@@ -108,9 +124,9 @@ static void sizes_are_one_drawing(void)
     shape_quad(&model, "wall", 20, 0);
     for (size_t m = 0; m < MEDIA; m++) {
         shot small, large;
-        if (!wall(&small, &model, media[m], 1))
+        if (!wall(&small, &model, media[m], 1, 0.55))
             continue;
-        if (wall(&large, &model, media[m], 2)) {
+        if (wall(&large, &model, media[m], 2, 0.55)) {
             double a = 0, b = 0, aa = 0, bb = 0, ab = 0, count = 0;
             for (int y = 0; y < SIDE; y++)
                 for (int x = 0; x < SIDE; x++, count++) {
@@ -126,6 +142,62 @@ static void sizes_are_one_drawing(void)
         }
         shot_release(&small);
     }
+    shape_release(&model);
+}
+
+enum { SQUARE = 30 }; /* pixels: 8 mm, wider than a stroke */
+
+/* How much the means of squares differ; `inside`: the least deviation in one of them. */
+static double unevenness(const shot *s, double *inside)
+{
+    double sum = 0, squares = 0, count = 0;
+    *inside = INFINITY;
+    for (int y = 0; y + SQUARE <= SIDE; y += SQUARE)
+        for (int x = 0; x + SQUARE <= SIDE; x += SQUARE, count++) {
+            double mean = 0, square = 0;
+            for (int i = 0; i < SQUARE * SQUARE; i++) {
+                size_t at = (size_t)(y + i / SQUARE) * SIDE + (size_t)(x + i % SQUARE);
+                double tone = shown(&s->picture[4 * at]);
+                mean += tone / (SQUARE * SQUARE), square += tone * tone / (SQUARE * SQUARE);
+            }
+            sum += mean, squares += mean * mean;
+            *inside = fmin(*inside, sqrt(fmax(square - mean * mean, 0)));
+        }
+    return sqrt(squares / count - sum * sum / count / count);
+}
+
+/* A hand presses harder here and lighter there. */
+static void hands_press_unevenly(void)
+{
+    shape model = {0};
+    shape_quad(&model, "wall", 20, 0);
+    for (size_t m = 0; m < MEDIA; m++) {
+        double uneven = 0, inside;
+        shot   s;
+        for (int i = 1; i < 4; i++)
+            if (wall(&s, &model, media[m], 1, 0.25 * i)) {
+                uneven += unevenness(&s, &inside) / 3;
+                shot_release(&s);
+            }
+        check_at_least("sticks", uneven, 0.028, "%s: how much squares of 8 mm differ in tone", media[m]);
+    }
+    shape_release(&model);
+}
+
+/* No tone of chalk is paper alone, that of the paper included. */
+static void nothing_stays_empty(void)
+{
+    shape  model = {0};
+    double least = INFINITY, inside;
+    shot   s;
+    shape_quad(&model, "wall", 20, 0);
+    for (int i = 4; i < 15; i++)
+        if (wall(&s, &model, "chalk", 1, 0.05 * i)) {
+            unevenness(&s, &inside);
+            least = fmin(least, inside);
+            shot_release(&s);
+        }
+    check_at_least("sticks", least, 0.03, "chalk: deviation of tone within 8 mm, least of all");
     shape_release(&model);
 }
 
@@ -160,11 +232,73 @@ static void accents_lie_in_clefts(void)
     shape_release(&open);
 }
 
+/* --- motion --------------------------------------------------------------------------------------------- */
+
+typedef struct motion {
+    const char *what;
+    double      turned, aside, nearer, lit; /* degrees, fraction of the distance twice, degrees */
+    double      limit;
+} motion;
+
+/* A frame of a viewer who turns around a model, goes aside and comes nearer, under a light that stays or turns. */
+static bool frame(shot *out, const char *look, const motion *m)
+{
+    char   light[96];
+    double angle = (30 + m->turned) * PI / 180, to = (20 + m->lit - m->turned) * PI / 180, distance = 7 * m->nearer;
+    double across = 7 * m->aside;
+    const char *changes[] = {"lines.operator",
+                             "none",
+                             "perturb.technique",
+                             "none",
+                             "scene.ground",
+                             "none",
+                             "scene.light_direction",
+                             light,
+                             NULL};
+    dvec        aside = dvec_of(across * cos(angle), 0, -across * sin(angle));
+    shot_view   view = {.width = 480, .height = 384, .target = aside, .up = {0, 1, 0}};
+    shape       model = {0};
+    view.eye = dvec_add(aside, dvec_of(distance * sin(angle), 0.35 * distance, distance * cos(angle)));
+    snprintf(light, sizeof light, "%.9f,0.6,%.9f", sin(to), cos(to));
+    hatch_model(&model);
+    bool good = shot_of_shape(out, &model, "moved.glb", look, changes, &view);
+    shape_release(&model);
+    return good;
+}
+
+/* The bounds that strokes on surfaces have (hatch_coherence.c). Strokes of sticks lie on the page and go with the
+ * model's middle; what is seen to change is what the surface moves under them. */
+static void frames_follow_each_other(void)
+{
+    static const motion rest = {"", 0, 0, 1, 0, 0}, steps[] = {{"turning by 0.5 degrees", 0.5, 0, 1, 0, 0.003},
+                                                               {"going aside by 1 %", 0, 0.01, 1, 0, 0.003},
+                                                               {"approaching by 1 %", 0, 0, 0.99, 0, 0.003},
+                                                               {"light turning by 1 degree", 0, 0, 1, 1, 0.007}};
+    for (size_t m = 0; m < MEDIA; m++) {
+        shot before, now;
+        if (!frame(&before, media[m], &rest))
+            continue;
+        for (size_t k = 0; k < sizeof steps / sizeof *steps; k++) {
+            if (!frame(&now, media[m], &steps[k]))
+                continue;
+            hatch_change h = hatch_compare(&now, &before);
+            check_at_most("EX-09", h.changed, steps[k].limit,
+                          "%s, %s: fraction of pixels that change by more than a quarter", media[m], steps[k].what);
+            check_at_most("EX-09", h.block, 0.06,
+                          "  largest change of the ink of 16 x 16 px (correlation %.3f, %d pixels)", h.correlation,
+                          h.pixels);
+            shot_release(&now);
+        }
+        shot_release(&before);
+    }
+}
+
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {
-        {"faces", faces_have_their_own_strokes}, {"sizes", sizes_are_one_drawing}, {"clefts", accents_lie_in_clefts}};
-    int status = check_main(argc, argv, "sticks", cases, sizeof cases / sizeof *cases);
+    static const check_case cases[] = {{"faces", faces_have_their_own_strokes}, {"sizes", sizes_are_one_drawing},
+                                       {"clefts", accents_lie_in_clefts},       {"pressure", hands_press_unevenly},
+                                       {"empty", nothing_stays_empty},          {"motion", frames_follow_each_other}};
+    int                     status = check_main(argc, argv, "sticks", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
 }

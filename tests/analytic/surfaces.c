@@ -831,6 +831,32 @@ static void pigment_flows(void)
     check_at_least("watercolour", sqrt(fmax(squares - sum * sum, 0)), 0.05, "  how much it differs");
 }
 
+/* Pigment settles here and there, no more of it and no less; and a paper that has a colour shows it through. */
+static void pigment_settles(void)
+{
+    double sum = 0, squares = 0;
+    shot   s;
+    if (take_washed(&s, false, "\"washes\":1,\"flow\":0,\"pooling\":0,\"granulation\":0.3", "0,0,1"))
+        for (int i = 0; i < 256 * 256; i++) {
+            double p = pigment_at(&s, i);
+            sum += p / (256 * 256);
+            squares += p * p / (256 * 256);
+        }
+    shot_release(&s);
+    check_near("watercolour", sum, 0.5, 0.02, "mean pigment where it settles");
+    check_at_least("watercolour", sqrt(fmax(squares - sum * sum, 0)), 0.05, "  how much it differs");
+    for (int clear = 0; clear < 2; clear++)
+        if (take_washed(&s, false,
+                        clear ? "\"flow\":0,\"pooling\":0,\"paper\":\"#00000000\""
+                              : "\"flow\":0,\"pooling\":0,\"paper\":\"#808080\"",
+                        "0,0,1")) {
+            check_near("watercolour", s.picture[4 * (128 * 256 + 128)],
+                       (clear ? 255 : 0x80) * sqrt(picture_srgb(0.4) / 255), 1, "%s paper under half of the pigment",
+                       clear ? "no" : "grey");
+            shot_release(&s);
+        }
+}
+
 /* --- Gooch ---------------------------------------------------------------------------------------------- */
 
 static void gooch_ramp(void)
@@ -1104,6 +1130,7 @@ int main(int argc, char **argv)
         {"pigment", pigment_takes_light},
         {"pools", pigment_pools},
         {"flows", pigment_flows},
+        {"settles", pigment_settles},
         {"gooch", gooch_ramp},
         {"highlights", highlights_are_where_light_is_mirrored},
         {"gooch-lines", gooch_lines},
