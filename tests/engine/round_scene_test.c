@@ -422,8 +422,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coarse_balls_cover_discs),      cmocka_unit_test(what_is_kept_follows_what_is_drawn),
         cmocka_unit_test(forms_alone_are_another_scene), cmocka_unit_test(files_do_not_mix),
-        cmocka_unit_test(outlines_are_round_in_vectors),
-        cmocka_unit_test(bevels_are_lines_in_looks_of_strokes),
+        cmocka_unit_test(outlines_are_round_in_vectors), cmocka_unit_test(bevels_are_lines_in_looks_of_strokes),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

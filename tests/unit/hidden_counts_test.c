@@ -93,7 +93,7 @@ static void open_scene(hidden_scene *h, uint32_t seed, bool orthographic)
     assert_int_equal(pose_create(&h->at_rest, h->source, &(moment){.seconds = 0}, &error), LMN_OK);
     assert_int_equal(stroke_scene_create(&h->scene, &h->at_rest, NULL, 0.5, NULL, NULL, &error), LMN_OK);
     assert_int_equal(stroke_view_create(&h->view, &h->scene, &camera, NULL, NULL, &error), LMN_OK);
-    assert_int_equal(lines_collect(&h->lines, h->view, &w, NULL, NULL, NULL, &error), LMN_OK);
+    assert_int_equal(lines_collect(&h->lines, h->view, &w, NULL, NULL, NULL, NULL, &error), LMN_OK);
     for (size_t i = 0; i < FREE_LINES; i++) {
         window_segment *s = &h->free[h->free_count];
         double3         p[2];

@@ -243,13 +243,12 @@ static void cages_keep_their_size(void **state)
 static void cages_have_no_creases(void **state)
 {
     (void)state;
-    cage *c = ear(0.03, 0.9);
-    vec3(*sharp)[2] = malloc(CORNERS * sizeof *sharp);
-    for (uint32_t i = 0; i < CORNERS; i++) {
-        sharp[i][0] = c->positions[c->indices[i]];
-        sharp[i][1] = c->positions[c->indices[i % 3 == 2 ? i - 2 : i + 1]];
-    }
-    round_options options = {PI / 6, 1.0 / 2000, 100000, false, (const vec3(*)[2])sharp, CORNERS};
+    cage         *c = ear(0.03, 0.9);
+    round_crease *sharp = malloc(CORNERS * sizeof *sharp);
+    for (uint32_t i = 0; i < CORNERS; i++)
+        sharp[i] =
+            (round_crease){{c->positions[c->indices[i]], c->positions[c->indices[i % 3 == 2 ? i - 2 : i + 1]]}, 0.8f};
+    round_options options = {PI / 6, 1.0 / 2000, 100000, false, sharp, CORNERS};
     mesh          m;
     assert_int_equal(mesh_round(&m, &c->m, &options, NULL), LMN_OK);
     assert_int_equal(m.primitive_count, 1);
