@@ -4,11 +4,17 @@
 
 #include "base/memory.h"
 
+static void release_found(stroke_found *f)
+{
+    stroke_set_release(&f->lines);
+    mem_free(f->parts);
+    *f = (stroke_found){.parts = NULL};
+}
+
 static void release_lines(stroke_store *s)
 {
-    stroke_set_release(&s->lines);
-    mem_free(s->lines_parts);
-    s->lines_parts = NULL;
+    for (int i = 0; i < STROKES_FOUND_MOST; i++)
+        release_found(&s->found[i]);
 }
 
 static void release_view(stroke_store *s)
@@ -127,20 +133,35 @@ lmn_status stroke_store_look(stroke_store *s, const stroke_camera *camera, lmn_e
     return stroke_view_create(&s->view, &s->scene, camera, NULL, NULL, error);
 }
 
+/* What was found for the same wish, or the place of what was not asked for longest. */
+static stroke_found *find_found(stroke_store *s, const stroke_options *options, const bool *parts)
+{
+    stroke_found *oldest = &s->found[0];
+    for (int i = 0; i < STROKES_FOUND_MOST; i++) {
+        stroke_found *f = &s->found[i];
+        if (f->parts && memcmp(&f->options, options, sizeof *options) == 0 &&
+            memcmp(f->parts, parts, s->part_count * sizeof *parts) == 0)
+            return f;
+        oldest = f->asked < oldest->asked ? f : oldest;
+    }
+    release_found(oldest);
+    return oldest;
+}
+
 lmn_status stroke_store_lines(stroke_store *s, const stroke_set **out, const stroke_options *options, const bool *parts,
                               lmn_error *error)
 {
-    *out = &s->lines;
-    if (s->lines_parts && memcmp(&s->lines_options, options, sizeof *options) == 0 &&
-        memcmp(s->lines_parts, parts, s->part_count * sizeof *parts) == 0)
+    stroke_found *f = find_found(s, options, parts);
+    *out = &f->lines;
+    f->asked = ++s->asked;
+    if (f->parts)
         return LMN_OK;
-    release_lines(s);
-    s->lines_options = *options;
-    s->lines_parts = mem_copy(parts, s->part_count * sizeof *parts);
-    lmn_status status = s->lines_parts ? LMN_OK : error_memory(error);
+    f->options = *options;
+    f->parts = mem_copy(parts, s->part_count * sizeof *parts);
+    lmn_status status = f->parts ? LMN_OK : error_memory(error);
     if (status == LMN_OK)
-        status = stroke_find(&s->lines, s->view, options, parts, NULL, NULL, error);
+        status = stroke_find(&f->lines, s->view, options, parts, NULL, NULL, error);
     if (status != LMN_OK)
-        release_lines(s);
+        release_found(f);
     return status;
 }

@@ -12,6 +12,16 @@ typedef struct stroke_seen {
     float      viewer[4];
 } stroke_seen;
 
+/* Lines of a view: each layer of a figure wants a part of them. Rules and layers with pens of their own ask for others,
+ * in every frame again. */
+enum { STROKES_FOUND_MOST = 4 };
+typedef struct stroke_found {
+    stroke_set     lines;
+    stroke_options options;
+    bool          *parts; /* NULL: nothing is kept here */
+    uint64_t       asked; /* when last */
+} stroke_found;
+
 typedef struct stroke_store {
     bool             *parts; /* that the scene has; all that may hide lines */
     size_t            part_count;
@@ -26,9 +36,8 @@ typedef struct stroke_store {
     stroke_seen      *seen;       /* per item, of meshes that move */
     stroke_view      *view;       /* of the last camera; NULL: none */
     stroke_camera     camera;
-    stroke_set        lines; /* found last in this view: each layer of a figure wants a part of them */
-    stroke_options    lines_options;
-    bool             *lines_parts; /* NULL: none were found */
+    stroke_found      found[STROKES_FOUND_MOST]; /* in this view */
+    uint64_t          asked;                     /* how often lines were */
 } stroke_store;
 
 typedef struct stroke_store_options {
@@ -47,8 +56,8 @@ stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_
 void stroke_store_fix(stroke_store *s, gpu *g, const bool *crossings, bool bends);
 /* What the camera sees, unless that is there. Errors: those of stroke_view_create. */
 lmn_status stroke_store_look(stroke_store *s, const stroke_camera *camera, lmn_error *error);
-/* The lines of these parts in the last camera's view; kept until others are asked for, and lent until then. Errors:
- * those of stroke_find. */
+/* The lines of these parts in the last camera's view; the last few that were asked for are kept, and lent until others
+ * are. Errors: those of stroke_find. */
 lmn_status stroke_store_lines(stroke_store *s, const stroke_set **out, const stroke_options *options, const bool *parts,
                               lmn_error *error);
 void       stroke_store_destroy(stroke_store **s, gpu *g);
