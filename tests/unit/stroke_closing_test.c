@@ -142,7 +142,7 @@ static void test_ticks_go(void **state)
                      hooked = add(&d, 32, 20, 32, 22, false);
         for (size_t i = 0; i < d.set.stroke_count; i++)
             d.strokes[i].kind = STROKE_CREASE;
-        assert_true(strokes_drop_orphans(&d.set, all ? 1 : 0.6f, d.gone));
+        assert_true(strokes_drop_orphans(&d.set, all ? 1 : 0.6f, 0, d.gone));
         assert_false(d.gone[0]);
         assert_int_equal(d.gone[tick], !all);
         assert_int_equal(d.gone[hook], !all);
@@ -167,10 +167,29 @@ static void test_lines_that_belong_stay(void **state)
     for (size_t i = 0; i < d.set.stroke_count; i++)
         d.strokes[i].kind = i == outline ? STROKE_CONTOUR : STROKE_CREASE;
     d.strokes[alone].part = 7;
-    assert_true(strokes_drop_orphans(&d.set, 0.6f, d.gone));
+    assert_true(strokes_drop_orphans(&d.set, 0.6f, 0, d.gone));
     for (size_t i = 0; i < d.set.stroke_count; i++)
         if (d.gone[i])
             fail_msg("stroke %zu is gone", i);
+}
+
+/* With all detail, too, what is shorter than a few of the shortest chains goes where it ends in the open, an outline as
+ * well as a crease; a longer one, and one that meets another line, stays. */
+static void test_scraps_go_with_all_detail(void **state)
+{
+    (void)state;
+    static const stroke_class kinds[] = {STROKE_CREASE, STROKE_CONTOUR, STROKE_INTERSECTION};
+    for (size_t kind = 0; kind < sizeof kinds / sizeof *kinds; kind++) {
+        drawing      d = {.set = {0}};
+        const float  shortest = (float)(2 * PAPER_UNITS_PER_MM);
+        const size_t outline = add(&d, 10, 10, 60, 10, false), scrap = add(&d, 20, 20, 27, 20, false),
+                     line = add(&d, 20, 30, 29, 30, false), branch = add(&d, 40, 10, 40, 13, false);
+        for (size_t i = 0; i < d.set.stroke_count; i++)
+            d.strokes[i].kind = i == outline ? STROKE_CONTOUR : kinds[kind];
+        assert_true(strokes_drop_orphans(&d.set, 1, shortest, d.gone));
+        assert_true(d.gone[scrap]);
+        assert_false(d.gone[outline] || d.gone[line] || d.gone[branch]);
+    }
 }
 
 int main(void)
@@ -184,6 +203,7 @@ int main(void)
         cmocka_unit_test(test_hidden_lines_do_not_count),
         cmocka_unit_test(test_ticks_go),
         cmocka_unit_test(test_lines_that_belong_stay),
+        cmocka_unit_test(test_scraps_go_with_all_detail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
