@@ -726,6 +726,8 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_optio
     if (status == LMN_OK)
         status = strokes_join(out, v, options, error);
     if (status == LMN_OK)
+        strokes_cut_swallowtails(out);
+    if (status == LMN_OK)
         status = leave_out(out, v, options, error);
     out->perspective = !v->camera.orthographic;
     if (status != LMN_OK)

@@ -1,5 +1,6 @@
 /* What comes back of lines that were left out: what closes a corner, and nothing else; and what goes since it belongs
  * to nothing. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -192,6 +193,36 @@ static void test_scraps_go_with_all_detail(void **state)
     }
 }
 
+/* A hidden outline that comes along, turns back at a cusp behind one surface more, turns again behind two, and crosses
+ * itself on its way: it goes on at the crossing, and so do arcs. What is seen, or large, stays as it is. */
+static void test_swallowtails_are_cut(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 3; kind++) {
+        const double at[5][2] = {{10, 10}, {22, 10}, {23, 8}, {21, 6}, {21, 20}}, size = kind == 2 ? 10 : 1;
+        drawing      d = {.set = {0}};
+        float        arc = 0;
+        for (size_t i = 0; i < 4; i++) {
+            stroke_point *p = &d.points[2 * add(&d, size * at[i][0], size * at[i][1], size * at[i + 1][0],
+                                                size * at[i + 1][1], false)];
+            p[0].arc = arc;
+            p[1].arc = arc += hypotf(p[1].x - p->x, p[1].y - p->y);
+            d.strokes[i].chain = 0;
+            d.strokes[i].hidden_by = i == 1 ? 2 : i == 2 ? 3 : kind == 1 ? 0 : 1;
+        }
+        strokes_cut_swallowtails(&d.set);
+        assert_int_equal(d.set.stroke_count, kind == 0 ? 2 : 4);
+        if (kind != 0)
+            continue;
+        const stroke_point *end = &d.points[d.strokes[0].first + 1], *begin = &d.points[d.strokes[1].first];
+        const double        mm = PAPER_UNITS_PER_MM;
+        assert_true(fabs((double)end->x - 21 * mm) < 1e-3 && fabs((double)end->y - 10 * mm) < 1e-3);
+        assert_true(fabs((double)begin->x - 21 * mm) < 1e-3 && fabs((double)begin->y - 10 * mm) < 1e-3);
+        assert_true(fabs((double)end->arc - 11 * mm) < 1e-3 && fabs((double)begin->arc - 11 * mm) < 1e-3);
+        assert_true(fabs((double)begin[1].arc - 21 * mm) < 1e-3);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -204,6 +235,7 @@ int main(void)
         cmocka_unit_test(test_ticks_go),
         cmocka_unit_test(test_lines_that_belong_stay),
         cmocka_unit_test(test_scraps_go_with_all_detail),
+        cmocka_unit_test(test_swallowtails_are_cut),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
