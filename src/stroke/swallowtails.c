@@ -114,7 +114,8 @@ void strokes_cut_swallowtails(stroke_set *set)
             self_crossing at;
             if (t->chain != set->strokes[i].chain || !is_hidden_outline(t) || set->points[t->first].arc - end > LOOP)
                 break;
-            if (k > i + 1 && t->hidden_by == set->strokes[i].hidden_by && find_crossing(set, &set->strokes[i], t, &at)) {
+            if (k > i + 1 && t->hidden_by == set->strokes[i].hidden_by &&
+                find_crossing(set, &set->strokes[i], t, &at)) {
                 cut(set, i, k, &at);
                 break;
             }
