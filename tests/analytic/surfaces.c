@@ -810,6 +810,31 @@ static void broad_strokes_leave_paper(void)
     }
 }
 
+/* Light grey has no colour to lay: in full light it is paper, in the dark it is laid over as all else is. */
+static void broad_strokes_leave_grey(void)
+{
+    for (int dark = 0; dark < 2; dark++) {
+        shape  s = {0};
+        shot   wall;
+        double laid = 0;
+        shape_quad(&s, "wall", 20, 0);
+        for (int k = 0; k < 3; k++)
+            s.parts[0].colour[k] = 0.5f;
+        const char *look =
+            surface_look("{\"technique\":\"lines\",\"shadow\":1,\"light\":4,\"paper_tint\":1,\"paper_light\":0,"
+                         "\"paper_strokes\":\"10px\"}",
+                         dark ? "0,0,-1" : "0,0,1", 0);
+        if (shot_of_shape(&wall, &s, "grey.glb", look, NULL, &front))
+            for (int y = 8; y < 248; y++)
+                for (int x = 8; x < 248; x++)
+                    laid += wall.picture[4 * (y * 256 + x)] < 250;
+        check_near("pen", laid / (240 * 240), dark, 0.02, "share of light grey that is laid over %s",
+                   dark ? "in the dark" : "in full light");
+        shot_release(&wall);
+        shape_release(&s);
+    }
+}
+
 /* --- Watercolour ------------------------------------------------------------------------------------------- */
 
 static bool take_washed(shot *out, bool ball, const char *more, const char *light)
@@ -1192,6 +1217,7 @@ int main(int argc, char **argv)
         {"dark-things", dark_things_are_blacker},
         {"clefts", clefts_are_black},
         {"broad-pen", broad_strokes_leave_paper},
+        {"broad-grey", broad_strokes_leave_grey},
         {"pigment", pigment_takes_light},
         {"pools", pigment_pools},
         {"flows", pigment_flows},
