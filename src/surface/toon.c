@@ -34,7 +34,7 @@ static const param params[] = {
                     .doc = "Saturation of the tones; cartoons like more than nature."),
     PARAM_FLOAT_ROW(toon, smoothing, .def = 0, .min = 0, .max = 100, .soft_max = 40, .unit = UNIT_PT,
                     .doc =
-                        "Light is smoothed over this radius before tones are told apart, textures over at most 12 pt "
+                        "Light is smoothed over this radius before tones are told apart, textures over at most 24 pt "
                         "of it, within a part and not across creases: borders of tones no longer follow the faces of "
                         "a mesh; 0 leaves both as they are. Not in what is seen through."),
     PARAM_FLOAT_ROW(toon, darkest, .def = 0, .min = 0, .max = 0.33, .unit = UNIT_FRACTION,
