@@ -744,17 +744,18 @@ static void sides(void)
     shape_release(&model);
 }
 
-/* The mean ink of a dark square face that has room for so many distances of lines; `black`: 0, or from where it is filled. */
+/* The mean ink of a dark square face that has room for so many distances of lines; `black`: 0, or from where it is
+ * filled. */
 static double ink_of_face(double distances, double black)
 {
     enum { RIM = 8, FACE = 214 /* pixels */ };
     const double TICK = 0.6; /* of its length, room of a line from edge to edge */
-    char      look[500];
-    shape     model = {0};
-    shot      s;
-    double    ink = 0;
-    int       inside = 0;
-    shot_view view = {.width = SIDE, .height = SIDE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .orthographic = true};
+    char         look[500];
+    shape        model = {0};
+    shot         s;
+    double       ink = 0;
+    int          inside = 0;
+    shot_view    view = {.width = SIDE, .height = SIDE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .orthographic = true};
     snprintf(look, sizeof look,
              "{\"version\":2,\"name\":\"face\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{"
              "\"technique\":\"lines\",\"scale\":%.9g,\"series\":2,\"crossed\":0.5,\"ink\":\"#000000\","
@@ -787,11 +788,13 @@ static void room(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {
-        {"light", light},     {"vectors", vectors},       {"white", white},           {"distance", distance},
-        {"darkest", darkest}, {"uncut", uncut},           {"whole", whole},           {"around", around},
-        {"joints", joints},   {"near-plane", near_plane}, {"indication", indication}, {"rims", rims},
-        {"sides", sides},     {"room", room}};
+    static const check_case cases[] = {{"light", light},           {"vectors", vectors},
+                                       {"white", white},           {"distance", distance},
+                                       {"darkest", darkest},       {"uncut", uncut},
+                                       {"whole", whole},           {"around", around},
+                                       {"joints", joints},         {"near-plane", near_plane},
+                                       {"indication", indication}, {"rims", rims},
+                                       {"sides", sides},           {"room", room}};
     halftone_begin_kept("marks");
     int status = check_main(argc, argv, "marks", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -195,10 +195,11 @@ static void models_have_all_tones(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {
-        {"wedges", wedges_are_even}, {"inks", inks_have_their_own_curves}, {"models", models_have_all_tones},
-        {"clouds", even_walls_have_no_clouds}};
-    int status = check_main(argc, argv, "tone", cases, sizeof cases / sizeof *cases);
+    static const check_case cases[] = {{"wedges", wedges_are_even},
+                                       {"inks", inks_have_their_own_curves},
+                                       {"models", models_have_all_tones},
+                                       {"clouds", even_walls_have_no_clouds}};
+    int                     status = check_main(argc, argv, "tone", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
 }
