@@ -690,7 +690,7 @@ static lmn_status leave_out(stroke_set *set, const stroke_view *v, const stroke_
         status = strokes_thin(set, options->crowd, v->camera.width, v->camera.height, gone, error);
     if (status == LMN_OK && memchr(gone, 1, set->stroke_count) && !strokes_close_corners(set, gone))
         status = error_memory(error);
-    if (status == LMN_OK && !strokes_drop_orphans(set, options->detail, gone))
+    if (status == LMN_OK && !strokes_drop_orphans(set, options->detail, options->shortest, gone))
         status = error_memory(error);
     size_t kept = 0;
     for (size_t i = 0; i < set->stroke_count && status == LMN_OK; i++)
@@ -725,6 +725,8 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_optio
     out->lines = asked;
     if (status == LMN_OK)
         status = strokes_join(out, v, options, error);
+    if (status == LMN_OK)
+        strokes_cut_swallowtails(out);
     if (status == LMN_OK)
         status = leave_out(out, v, options, error);
     out->perspective = !v->camera.orthographic;

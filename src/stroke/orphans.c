@@ -1,7 +1,8 @@
 /* Lines that belong to nothing. Short lines inside an outline that end in the open, with no other line near, say
  * nothing of the form: creases that a mesh has there by chance, which a draughtsman leaves out. Lines that meet or come
  * near each other are judged together, by their length. What closes, like the rim of a small hole, stays, and so does
- * what a part has no other lines than. */
+ * what a part has no other lines than. However much detail there is, lines that belong to nothing are as long as a few
+ * that may just be drawn; so short, outlines go, too: dents that a surface has by chance turn away from the eye. */
 #include <math.h>
 #include <string.h>
 
@@ -14,16 +15,18 @@
 #define ROUND   (2 * MM)  /* what is shorter is not closed where its ends are near each other */
 #define LONGEST (28 * MM) /* with little detail */
 #define STEEP   3         /* how much less with more: of the square of what detail lacks */
+#define LEAST   4         /* with all of it: lengths that whole chains have at least */
 
 typedef struct orphan_search {
     const stroke_set *set;
     uint8_t          *gone;
     page_pieces       drawn;
-    double            longest;
-    uint32_t         *group;  /* per stroke: another one of its group, the first at last */
-    float            *length; /* per stroke; of the first of a group then all of it */
-    uint8_t          *ends;   /* the same: does one end in the open? */
-    uint8_t          *kept;   /* the same: whatever its length */
+    double            longest, outline; /* that lines go with; the same of outlines, and of what is near them */
+    uint32_t         *group;            /* per stroke: another one of its group, the first at last */
+    float            *length;           /* per stroke; of the first of a group then all of it */
+    uint8_t          *ends;             /* the same: does one end in the open? */
+    uint8_t          *kept;             /* the same: whatever its length */
+    uint8_t          *outlines;         /* the same: is it one? */
 } orphan_search;
 
 static bool is_drawn(const orphan_search *o, size_t i)
@@ -31,11 +34,12 @@ static bool is_drawn(const orphan_search *o, size_t i)
     return !o->gone[i] && o->set->strokes[i].hidden_by == 0 && o->set->strokes[i].count > 1;
 }
 
-/* Outlines and what files bring mean something, however short. */
-static bool is_inner(const stroke *s)
+/* What ends a surface and what files bring means something, however short; outlines where they are long. */
+static bool is_inner(const orphan_search *o, uint32_t i)
 {
-    return s->kind != STROKE_CONTOUR && s->kind != STROKE_BORDER && s->kind != STROKE_DRAWN &&
-           s->kind != STROKE_SPEED && s->kind != STROKE_PAST;
+    const stroke_class kind = o->set->strokes[i].kind;
+    return kind != STROKE_BORDER && kind != STROKE_DRAWN && kind != STROKE_SPEED && kind != STROKE_PAST &&
+           (kind != STROKE_CONTOUR || (double)o->length[i] < o->outline);
 }
 
 static uint32_t group_of(orphan_search *o, uint32_t i)
@@ -97,8 +101,9 @@ static void look_around(orphan_search *o, uint32_t i)
     const bool first = unite_near(o, i, &o->set->points[s->first]),
                last = unite_near(o, i, &o->set->points[s->first + s->count - 1]);
     o->ends[i] = !is_closed(o, i) && !(first && last);
-    o->kept[i] = !is_inner(s) || is_closed(o, i);
-    if (is_inner(s) && (double)o->length[i] < o->longest)
+    o->kept[i] = !is_inner(o, i) || is_closed(o, i);
+    o->outlines[i] = s->kind == STROKE_CONTOUR;
+    if (is_inner(o, i) && (double)o->length[i] < o->longest)
         unite_along(o, i);
 }
 
@@ -111,13 +116,15 @@ static void add_up(orphan_search *o)
         o->length[first] += o->length[i];
         o->ends[first] |= o->ends[i];
         o->kept[first] |= o->kept[i];
+        o->outlines[first] |= o->outlines[i];
     }
 }
 
 static bool is_orphan(orphan_search *o, uint32_t i)
 {
     const uint32_t first = group_of(o, i);
-    return is_drawn(o, i) && !o->kept[first] && o->ends[first] && (double)o->length[first] < o->longest;
+    const double   longest = o->outlines[first] ? o->outline : o->longest;
+    return is_drawn(o, i) && !o->kept[first] && o->ends[first] && (double)o->length[first] < longest;
 }
 
 /* Flags parts that have other lines. False: out of memory. */
@@ -141,38 +148,54 @@ static bool leave_out_orphans(orphan_search *o)
     return good;
 }
 
-static double longest_of(float detail)
+/* `least`: what is shorter goes with all detail. */
+static double longest_of(float detail, double least)
 {
     const double lacks = 1 - (double)detail;
-    return LONGEST * fmin(STEEP * lacks * lacks, 1);
+    return fmax(LONGEST * fmin(STEEP * lacks * lacks, 1), least);
 }
 
-bool strokes_drop_orphans(const stroke_set *set, float detail, uint8_t *gone)
+static bool orphans_open(orphan_search *o)
 {
-    orphan_search o = {.set = set, .gone = gone, .longest = longest_of(detail)};
-    const size_t  count = set->stroke_count;
-    if (!(detail < 1) || count == 0)
-        return true;
-    o.group = mem_alloc(count * sizeof *o.group);
-    o.length = mem_calloc(count, sizeof *o.length);
-    o.ends = mem_calloc(count, 1);
-    o.kept = mem_calloc(count, 1);
-    bool good = page_pieces_open(&o.drawn, set) && o.group && o.length && o.ends && o.kept;
+    const size_t count = o->set->stroke_count;
+    o->group = mem_alloc(count * sizeof *o->group);
+    o->length = mem_calloc(count, sizeof *o->length);
+    o->ends = mem_calloc(count, 1);
+    o->kept = mem_calloc(count, 1);
+    o->outlines = mem_calloc(count, 1);
+    bool good = page_pieces_open(&o->drawn, o->set) && o->group && o->length && o->ends && o->kept && o->outlines;
     for (uint32_t i = 0; i < count && good; i++) {
-        o.group[i] = i;
-        good = !is_drawn(&o, i) || page_pieces_put(&o.drawn, i);
+        o->group[i] = i;
+        good = !is_drawn(o, i) || page_pieces_put(&o->drawn, i);
     }
-    for (uint32_t i = 0; i < count && good; i++)
+    return good;
+}
+
+static void orphans_close(orphan_search *o)
+{
+    page_pieces_close(&o->drawn);
+    mem_free(o->group);
+    mem_free(o->length);
+    mem_free(o->ends);
+    mem_free(o->kept);
+    mem_free(o->outlines);
+}
+
+bool strokes_drop_orphans(const stroke_set *set, float detail, float shortest, uint8_t *gone)
+{
+    const double  least = fmin(LEAST * (double)shortest, LONGEST);
+    const double  longest = longest_of(detail, least);
+    orphan_search o = {.set = set, .gone = gone, .longest = longest, .outline = least};
+    if (!(o.longest > 0) || set->stroke_count == 0)
+        return true;
+    bool good = orphans_open(&o);
+    for (uint32_t i = 0; i < set->stroke_count && good; i++)
         if (is_drawn(&o, i))
             look_around(&o, i);
     if (good) {
         add_up(&o);
         good = leave_out_orphans(&o);
     }
-    page_pieces_close(&o.drawn);
-    mem_free(o.group);
-    mem_free(o.length);
-    mem_free(o.ends);
-    mem_free(o.kept);
+    orphans_close(&o);
     return good;
 }

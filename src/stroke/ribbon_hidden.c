@@ -1,7 +1,8 @@
 /* Hidden lines are drawn whole or not at all (ISO 128): single dashes that float about say nothing. A *run* is what of
  * a chain is hidden without a visible stretch that could be seen; runs that end at one corner are one *figure*. A
  * figure of fewer than four dashes is left out, and so is a run that ends at no other line, as long as there are any;
- * where most of a body goes, the rest of it goes too. */
+ * where most of a body goes, the rest of it goes too. And so is a figure that is mostly crumpled: dashes that are
+ * longer than the line is straight show no line. */
 #include "stroke/ribbon_hidden.h"
 
 #include <math.h>
@@ -16,6 +17,12 @@ static const float touching = 2;         /* on paper, beyond a line's ink: an en
 static const float own_apart = 4;     /* of its own stroke an end lies on what is farther along than this, in reaches */
 static const float same_place = 0.5f; /* on paper: ends at one corner */
 static const float same_depth = 0.02f; /* the same in depth, fraction of the depth of all lines */
+
+static const float corner_cosine = 0.7f;  /* of the least turn that is a corner */
+static const float crumpled_least = 0.5f; /* of a figure that is left out for that */
+/* Of all hidden lines of a body of which none are drawn then: of noise, or teeth, what is left would be chance. */
+static const float crumpled_body = 0.05f;
+static const float crumpled_pieces = 32; /* and it is so many dashes and gaps: a few may be short in any body */
 
 /* Of the hidden lines of a wholly hidden body or part so much is drawn, or nothing is, and of one that is seen. */
 static const float group_least[2] = {0.7f, 0.4f};
@@ -74,16 +81,18 @@ span ribbon_hidden_run(const ribbon_job *job, size_t index)
 
 typedef struct hidden_figures {
     const ribbon_job *job;
-    const gap_list   *gaps;    /* sorted: what is left out for other reasons */
-    bool             *kept;    /* per stroke: drawn so far */
-    uint32_t         *figures; /* per stroke: another one of its figure, or itself */
-    uint32_t         *runs;    /* the same of its run */
-    float            *shown;   /* per stroke: length without gaps */
-    float            *lengths; /* of figures */
-    bool             *loose;   /* of runs: has an end at nothing */
-    hidden_runs       order;   /* all of them, by bodies */
-    float            *wanted;  /* per run in that order: length that was to be drawn before any was found wanting */
-    stroke_set        twin;    /* all that is drawn as if it were visible: what meets what does not ask for that */
+    const gap_list   *gaps;     /* sorted: what is left out for other reasons */
+    bool             *kept;     /* per stroke: drawn so far */
+    uint32_t         *figures;  /* per stroke: another one of its figure, or itself */
+    uint32_t         *runs;     /* the same of its run */
+    float            *shown;    /* per stroke: length without gaps */
+    float            *lengths;  /* of figures */
+    float            *crumpled; /* per stroke, of it: length in pieces between corners shorter than a dash and a gap */
+    float            *creased;  /* the same, of figures */
+    bool             *loose;    /* of runs: has an end at nothing */
+    hidden_runs       order;    /* all of them, by bodies */
+    float            *wanted;   /* per run in that order: length that was to be drawn before any was found wanting */
+    stroke_set        twin;     /* all that is drawn as if it were visible: what meets what does not ask for that */
     ribbon_job        all;
     segment_grid      grid;
 } hidden_figures;
@@ -230,12 +239,39 @@ static bool is_loose(const hidden_figures *f, uint32_t own)
     return false;
 }
 
+/* How much of a stroke lies in pieces between corners that are shorter than a dash and a gap. What its ends cut off may
+ * go on beyond them, unless the run ends there, too. */
+static float crumpled_of(const hidden_figures *f, uint32_t index)
+{
+    const stroke_set *set = f->job->strokes;
+    const stroke     *s = &set->strokes[index];
+    const float       least = ribbon_dash_length(f->job, s) + f->job->style->hidden_gap;
+    bool              cut = !s->closed && neighbour(f->job, index, -1, SIZE_MAX) != SIZE_MAX;
+    float             sum = 0, piece = 0, before[2] = {0, 0};
+    for (uint32_t k = 0; k + 1 < s->count; k++) {
+        const stroke_point *a = &set->points[s->first + k], *b = a + 1;
+        const float         x = b->x - a->x, y = b->y - a->y, length = hypotf(x, y);
+        if (!(length > 0))
+            continue;
+        if (x * before[0] + y * before[1] < corner_cosine * length && piece > 0) {
+            sum += piece < least && !cut ? piece : 0;
+            piece = 0;
+            cut = false;
+        }
+        before[0] = x / length;
+        before[1] = y / length;
+        piece += length;
+    }
+    cut = cut || s->closed || neighbour(f->job, index, 1, SIZE_MAX) != SIZE_MAX;
+    return sum + (piece < least && !cut ? piece : 0);
+}
+
 static void gather(hidden_figures *f)
 {
     const stroke_set *set = f->job->strokes;
     for (uint32_t i = 0; i < set->stroke_count; i++) {
         f->figures[i] = f->runs[i] = i;
-        f->lengths[i] = 0;
+        f->lengths[i] = f->creased[i] = 0;
         f->loose[i] = false;
     }
     for (uint32_t i = 0; i < set->stroke_count; i++)
@@ -251,6 +287,7 @@ static void gather(hidden_figures *f)
     for (uint32_t i = 0; i < set->stroke_count; i++)
         if (f->kept[i] && is_hidden(f->job, i)) {
             f->lengths[first_of(f->figures, i)] += f->shown[i];
+            f->creased[first_of(f->figures, i)] += f->crumpled[i];
             if (is_loose(f, i))
                 f->loose[first_of(f->runs, i)] = true;
         }
@@ -264,9 +301,11 @@ static bool sift(hidden_figures *f)
     for (uint32_t i = 0; i < f->job->strokes->stroke_count; i++) {
         if (!f->kept[i] || !is_hidden(f->job, i))
             continue;
-        float dash = ribbon_dash_length(f->job, &f->job->strokes->strokes[i]);
-        float least = DASHES_LEAST * dash + (DASHES_LEAST - 1) * style->hidden_gap;
-        if (f->loose[first_of(f->runs, i)] || f->lengths[first_of(f->figures, i)] < least * 0.9999f) {
+        float          dash = ribbon_dash_length(f->job, &f->job->strokes->strokes[i]);
+        float          least = DASHES_LEAST * dash + (DASHES_LEAST - 1) * style->hidden_gap;
+        const uint32_t figure = first_of(f->figures, i);
+        if (f->loose[first_of(f->runs, i)] || f->lengths[figure] < least * 0.9999f ||
+            f->creased[figure] > crumpled_least * f->lengths[figure]) {
             f->kept[i] = false;
             some = true;
         }
@@ -288,7 +327,21 @@ static bool is_one_group(const hidden_run *a, const hidden_run *b, bool parts)
     return parts ? a->part == b->part : a->body == b->body;
 }
 
-/* Takes out bodies, or whole parts, of which most is gone; true: there were some. */
+/* Are hidden runs crumpled, by all their length, whether it is drawn or not? */
+static bool is_crumpled(const hidden_figures *f, const hidden_run *runs, size_t count)
+{
+    const stroke_style *style = f->job->style;
+    float               crumpled = 0, length = 0;
+    for (size_t k = 0; k < count; k++)
+        for (uint32_t n = 0; n < runs[k].count; n++) {
+            const uint32_t i = runs[k].first + n;
+            crumpled += f->crumpled[i];
+            length += is_hidden(f->job, i) ? length_of(f->job->strokes, &f->job->strokes->strokes[i]) : 0;
+        }
+    return crumpled > crumpled_body * length && crumpled > crumpled_pieces * (style->hidden_dash + style->hidden_gap);
+}
+
+/* Takes out bodies, or whole parts, of which most is gone, and bodies that are crumpled; true: there were some. */
 static bool sift_groups(hidden_figures *f, bool parts)
 {
     const hidden_run *runs = f->order.items;
@@ -301,7 +354,7 @@ static bool sift_groups(hidden_figures *f, bool parts)
             left += drawn_of(f, &runs[end]);
             seen = seen || runs[end].seen;
         }
-        if (!(left > 0) || left >= group_least[seen] * wanted)
+        if (!(left > 0) || (left >= group_least[seen] * wanted && (parts || !is_crumpled(f, &runs[i], end - i))))
             continue;
         some = true;
         for (size_t k = i; k < end; k++)
@@ -336,19 +389,23 @@ static bool open_figures(hidden_figures *f, const gap_list *gaps)
     f->figures = mem_calloc(count, sizeof *f->figures);
     f->shown = mem_calloc(count, sizeof *f->shown);
     f->lengths = mem_calloc(count, sizeof *f->lengths);
+    f->crumpled = mem_calloc(count, sizeof *f->crumpled);
+    f->creased = mem_calloc(count, sizeof *f->creased);
     f->loose = mem_calloc(count, sizeof *f->loose);
     f->runs = mem_calloc(count, sizeof *f->runs);
     f->wanted = mem_calloc(count, sizeof *f->wanted);
     f->twin = *set;
     f->twin.strokes = mem_calloc(count, sizeof *f->twin.strokes);
-    if (!f->kept || !f->figures || !f->shown || !f->lengths || !f->loose || !f->runs || !f->wanted ||
-        !f->twin.strokes || !hidden_runs_find(&f->order, f->job))
+    if (!f->kept || !f->figures || !f->shown || !f->lengths || !f->loose || !f->runs || !f->wanted || !f->crumpled ||
+        !f->creased || !f->twin.strokes || !hidden_runs_find(&f->order, f->job))
         return false;
     memcpy(f->twin.strokes, set->strokes, set->stroke_count * sizeof *set->strokes);
     memcpy(f->kept, f->job->drawn, set->stroke_count * sizeof *f->kept);
     for (size_t i = 0; i < set->stroke_count; i++)
         f->twin.strokes[i].hidden_by = 0;
     measure(f, gaps);
+    for (uint32_t i = 0; i < set->stroke_count; i++)
+        f->crumpled[i] = is_hidden(f->job, i) ? crumpled_of(f, i) : 0;
     for (size_t i = 0; i < gaps->count; i++)
         if (isinf(gaps->items[i].from) && isinf(gaps->items[i].to))
             f->kept[gaps->items[i].stroke] = false;
@@ -369,6 +426,8 @@ static void close_figures(hidden_figures *f)
     mem_free(f->figures);
     mem_free(f->shown);
     mem_free(f->lengths);
+    mem_free(f->crumpled);
+    mem_free(f->creased);
     mem_free(f->loose);
     mem_free(f->runs);
     mem_free(f->wanted);

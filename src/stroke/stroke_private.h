@@ -365,8 +365,12 @@ bool strokes_close_corners(const stroke_set *set, uint8_t *gone);
 
 /* --- orphans.c --- */
 /* Marks short inner lines that end in the open and have no other line near them, the longer ones the less detail there
- * is. False: out of memory. */
-bool strokes_drop_orphans(const stroke_set *set, float detail, uint8_t *gone);
+ * is; and always those, outlines too, that are shorter than a few times the shortest chains. False: out of memory. */
+bool strokes_drop_orphans(const stroke_set *set, float detail, float shortest, uint8_t *gone);
+
+/* --- swallowtails.c --- */
+/* Cuts small loops of hidden outlines off where these cross themselves. */
+void strokes_cut_swallowtails(stroke_set *set);
 
 /* --- crowd.c --- */
 /* Marks strokes that run all their length within about this many units of more important ones that are not gone; the

@@ -297,6 +297,49 @@ static void test_corner(void **state)
     }
 }
 
+/* A line that turns before a dash and a gap are through, 7.5, shows nothing; one with longer pieces does, and one that
+ * turns a little at a time. */
+static void test_crumpled(void **state)
+{
+    enum { TURNS = 12 };
+    size_t dashes;
+    (void)state;
+    for (int kind = 0; kind < 3; kind++) {
+        const float piece = kind == 1 ? 8 : 6, across = piece * sqrtf(0.5f), up = kind == 2 ? across / 8 : across,
+                    length = hypotf(across, up);
+        begin();
+        add_posts(0, TURNS * across);
+        add(0, 0, across, up, 1, false);
+        for (int i = 2; i <= TURNS; i++)
+            points[set.point_count++] = (stroke_point){(float)i * across, i % 2 ? up : 0, 5, (float)i * length, 1};
+        strokes[set.stroke_count - 1].count = TURNS + 1;
+        strokes[set.stroke_count - 1].chain_length = TURNS * length;
+        assert_near(hidden_length(&set, &dashes), kind == 0 ? 0 : TURNS * (double)length, 1e-3);
+    }
+}
+
+/* A body with much of that, 32 dashes and gaps, shows no hidden lines at all; with little, those that are whole. */
+static void test_crumpled_body(void **state)
+{
+    size_t dashes;
+    (void)state;
+    for (int much = 0; much < 2; much++) {
+        const int   turns = much ? 60 : 20;
+        const float across = 6 * sqrtf(0.5f);
+        begin();
+        add_posts(0, 260);
+        add(0, 0, 260, 0, 1, false);
+        add_posts(0, (float)turns * across);
+        add(0, -20, across, across - 20, 1, false);
+        for (int i = 2; i <= turns; i++)
+            points[set.point_count++] =
+                (stroke_point){(float)i * across, i % 2 ? across - 20 : -20, 5, (float)i * 6, 1};
+        strokes[set.stroke_count - 1].count = (uint32_t)turns + 1;
+        strokes[set.stroke_count - 1].chain_length = (float)turns * 6;
+        assert_near(hidden_length(&set, &dashes), much ? 0 : 260, 1e-3);
+    }
+}
+
 /* Neither a surface more in front nor a visible stretch that no one sees ends the dashes' row. */
 static void test_run(void **state)
 {
@@ -418,10 +461,12 @@ static void test_island(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cube),      cmocka_unit_test(test_l),          cmocka_unit_test(test_bored),
-        cmocka_unit_test(test_short),     cmocka_unit_test(test_loose),      cmocka_unit_test(test_corner),
-        cmocka_unit_test(test_run),       cmocka_unit_test(test_pruned),     cmocka_unit_test(test_torn),
-        cmocka_unit_test(test_whole_rim), cmocka_unit_test(test_whole_body), cmocka_unit_test(test_island)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cube),       cmocka_unit_test(test_l),
+                                       cmocka_unit_test(test_bored),      cmocka_unit_test(test_short),
+                                       cmocka_unit_test(test_loose),      cmocka_unit_test(test_corner),
+                                       cmocka_unit_test(test_crumpled),   cmocka_unit_test(test_crumpled_body),
+                                       cmocka_unit_test(test_run),        cmocka_unit_test(test_pruned),
+                                       cmocka_unit_test(test_torn),       cmocka_unit_test(test_whole_rim),
+                                       cmocka_unit_test(test_whole_body), cmocka_unit_test(test_island)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* What comes back of lines that were left out: what closes a corner, and nothing else; and what goes since it belongs
  * to nothing. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -142,7 +143,7 @@ static void test_ticks_go(void **state)
                      hooked = add(&d, 32, 20, 32, 22, false);
         for (size_t i = 0; i < d.set.stroke_count; i++)
             d.strokes[i].kind = STROKE_CREASE;
-        assert_true(strokes_drop_orphans(&d.set, all ? 1 : 0.6f, d.gone));
+        assert_true(strokes_drop_orphans(&d.set, all ? 1 : 0.6f, 0, d.gone));
         assert_false(d.gone[0]);
         assert_int_equal(d.gone[tick], !all);
         assert_int_equal(d.gone[hook], !all);
@@ -167,10 +168,59 @@ static void test_lines_that_belong_stay(void **state)
     for (size_t i = 0; i < d.set.stroke_count; i++)
         d.strokes[i].kind = i == outline ? STROKE_CONTOUR : STROKE_CREASE;
     d.strokes[alone].part = 7;
-    assert_true(strokes_drop_orphans(&d.set, 0.6f, d.gone));
+    assert_true(strokes_drop_orphans(&d.set, 0.6f, 0, d.gone));
     for (size_t i = 0; i < d.set.stroke_count; i++)
         if (d.gone[i])
             fail_msg("stroke %zu is gone", i);
+}
+
+/* With all detail, too, what is shorter than a few of the shortest chains goes where it ends in the open, an outline as
+ * well as a crease; a longer one, and one that meets another line, stays. */
+static void test_scraps_go_with_all_detail(void **state)
+{
+    (void)state;
+    static const stroke_class kinds[] = {STROKE_CREASE, STROKE_CONTOUR, STROKE_INTERSECTION};
+    for (size_t kind = 0; kind < sizeof kinds / sizeof *kinds; kind++) {
+        drawing      d = {.set = {0}};
+        const float  shortest = (float)(2 * PAPER_UNITS_PER_MM);
+        const size_t outline = add(&d, 10, 10, 60, 10, false), scrap = add(&d, 20, 20, 27, 20, false),
+                     line = add(&d, 20, 30, 29, 30, false), branch = add(&d, 40, 10, 40, 13, false);
+        for (size_t i = 0; i < d.set.stroke_count; i++)
+            d.strokes[i].kind = i == outline ? STROKE_CONTOUR : kinds[kind];
+        assert_true(strokes_drop_orphans(&d.set, 1, shortest, d.gone));
+        assert_true(d.gone[scrap]);
+        assert_false(d.gone[outline] || d.gone[line] || d.gone[branch]);
+    }
+}
+
+/* A hidden outline that comes along, turns back at a cusp behind one surface more, turns again behind two, and crosses
+ * itself on its way: it goes on at the crossing, and so do arcs. What is seen, or large, stays as it is. */
+static void test_swallowtails_are_cut(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 3; kind++) {
+        const double at[5][2] = {{10, 10}, {22, 10}, {23, 8}, {21, 6}, {21, 20}}, size = kind == 2 ? 10 : 1;
+        drawing      d = {.set = {0}};
+        float        arc = 0;
+        for (size_t i = 0; i < 4; i++) {
+            stroke_point *p = &d.points[2 * add(&d, size * at[i][0], size * at[i][1], size * at[i + 1][0],
+                                                size * at[i + 1][1], false)];
+            p[0].arc = arc;
+            p[1].arc = arc += hypotf(p[1].x - p->x, p[1].y - p->y);
+            d.strokes[i].chain = 0;
+            d.strokes[i].hidden_by = i == 1 ? 2 : i == 2 ? 3 : kind == 1 ? 0 : 1;
+        }
+        strokes_cut_swallowtails(&d.set);
+        assert_int_equal(d.set.stroke_count, kind == 0 ? 2 : 4);
+        if (kind != 0)
+            continue;
+        const stroke_point *end = &d.points[d.strokes[0].first + 1], *begin = &d.points[d.strokes[1].first];
+        const double        mm = PAPER_UNITS_PER_MM;
+        assert_true(fabs((double)end->x - 21 * mm) < 1e-3 && fabs((double)end->y - 10 * mm) < 1e-3);
+        assert_true(fabs((double)begin->x - 21 * mm) < 1e-3 && fabs((double)begin->y - 10 * mm) < 1e-3);
+        assert_true(fabs((double)end->arc - 11 * mm) < 1e-3 && fabs((double)begin->arc - 11 * mm) < 1e-3);
+        assert_true(fabs((double)begin[1].arc - 21 * mm) < 1e-3);
+    }
 }
 
 int main(void)
@@ -184,6 +234,8 @@ int main(void)
         cmocka_unit_test(test_hidden_lines_do_not_count),
         cmocka_unit_test(test_ticks_go),
         cmocka_unit_test(test_lines_that_belong_stay),
+        cmocka_unit_test(test_scraps_go_with_all_detail),
+        cmocka_unit_test(test_swallowtails_are_cut),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
