@@ -9,7 +9,7 @@
 const float CELL = 1.0;     /* diameters: a cell has one dot at most, */
 const float SHIFTED = 0.42; /* cells that it lies off the middle at most */
 
-/* Multiples of two numbers, so that cells next to each other come at unlike tones and those of one tone are spread evenly, as Roberts (2018) spreads points. */
+/* Multiples of two numbers, so that cells next to each other come at unlike tones and those of one tone are spread evenly. */
 float rank_of(vec2 cell)
 {
     return fract(dot(cell, vec2(0.7548777, 0.5698403)));
