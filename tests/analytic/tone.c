@@ -193,12 +193,63 @@ static void models_have_all_tones(void)
     }
 }
 
+/* A white wall with a painted half, turned from the key light, beside a lit one: what a look makes of the paint in the
+ * shade, of the wall's own tone there, and of the lit one. */
+static bool walls_in_shade(const char *look, double out[3])
+{
+    static const float paints[3][4] = {{0.9f, 0.9f, 0.9f, 1}, {0.9f, 0.9f, 0.9f, 1}, {0.18f, 0.25f, 0.08f, 1}};
+    const char *changes[] = {"lines.operator", "none", "perturb.technique", "none", "scene.ground", "none", NULL};
+    shape       model = {0};
+    shot        s;
+    shot_view   view = {.width = WEDGE, .height = WEDGE, .eye = {0, 0, 6}, .up = {0, 1, 0}, .orthographic = true};
+    for (int i = 0; i < 3; i++) {
+        /* the lit one faces the viewer, those in the shade lean to the right */
+        shape_quad(&model, i == 0 ? "lit" : i == 1 ? "bare" : "painted", 0.5, 0);
+        memcpy(model.parts[i].colour, paints[i], sizeof paints[i]);
+        shape_place(&model, dvec_of(0, 1, 0), i ? 58 : -10, dvec_of(i ? 0.35 : -0.6, i == 2 ? -0.5 : i ? 0.5 : 0, 0));
+    }
+    bool good = shot_of_shape(&s, &model, "shade.glb", look, changes, &view);
+    if (good) {
+        double sums[3] = {0};
+        int    counts[3] = {0};
+        for (int y = 0; y < s.height; y++)
+            for (int x = 0; x < s.width; x++) {
+                int at = y * s.width + x;
+                if (!(s.depth[at] < INFINITY))
+                    continue;
+                int which = x < s.width / 2 ? 0 : y < s.height / 2 ? 1 : 2;
+                sums[which] += shown(&s.picture[4 * at]);
+                counts[which]++;
+            }
+        for (int i = 0; i < 3; i++)
+            out[i] = sums[i] / fmax(counts[i], 1);
+        shot_release(&s);
+    }
+    shape_release(&model);
+    return good;
+}
+
+/* Shade is transparent: what is painted there is told, and what is not is no mud. */
+static void paint_is_told_in_shade(void)
+{
+    static const char *const looks[] = {"pencil", "stipple", "charcoal", "chalk", "crayon", "halftone"};
+    for (size_t l = 0; l < sizeof looks / sizeof *looks; l++) {
+        double at[3];
+        if (!walls_in_shade(looks[l], at))
+            continue;
+        check_at_least("tone", at[1] - at[2], 0.12, "%s: how much darker paint is in the shade (%.2f lit, %.2f, %.2f)",
+                       looks[l], at[0], at[1], at[2]);
+        check_at_least("tone", at[1], 0.3, "%s: a white wall in the shade", looks[l]);
+    }
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {{"wedges", wedges_are_even},
                                        {"inks", inks_have_their_own_curves},
                                        {"models", models_have_all_tones},
-                                       {"clouds", even_walls_have_no_clouds}};
+                                       {"clouds", even_walls_have_no_clouds},
+                                       {"shade", paint_is_told_in_shade}};
     int                     status = check_main(argc, argv, "tone", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
