@@ -41,6 +41,7 @@ typedef struct finder {
     draft_faces      faces;
     uint8_t         *taken;     /* per face: what it is part of */
     uint8_t         *failed_at; /* per face: how many growths it was in that came to nothing; so work stays in bounds */
+    uint64_t  grown;    /* faces, by all growths */
     uint8_t  *grown_at; /* per face: how many first growths it was in; on a ball they are wide, the last ones small */
     uint32_t *mark;     /* per face: of the growth at hand */
     uint32_t  turn;
@@ -144,6 +145,7 @@ static void grow(finder *f, const cylinder_fit *c, uint32_t seed, double toleran
                 add_to_region(f, other);
             }
         }
+    f->grown += f->region_count;
     put_corners(f);
 }
 
@@ -610,10 +612,11 @@ static bool put_cylinder(draft_cylinders *out, const stroke_item *item, const re
 lmn_status draft_cylinders_find(draft_cylinders *out, const stroke_scene *scene, lmn_error *error)
 {
     lmn_status status = LMN_OK;
-    *out = (draft_cylinders){NULL, 0, 0};
+    *out = (draft_cylinders){.items = NULL};
     for (size_t mesh = 0; mesh < scene->mesh_count && status == LMN_OK; mesh++) {
         finder f;
         status = find_in_mesh(&f, &scene->meshes[mesh], error);
+        out->grown += f.grown;
         for (size_t i = 0; i < scene->item_count && status == LMN_OK; i++)
             for (size_t k = 0; k < f.found_count && scene->items[i].mesh == mesh && status == LMN_OK; k++)
                 if (!put_cylinder(out, &scene->items[i], &f.found[k]))

@@ -20,6 +20,7 @@ typedef struct draft_cylinder {
 typedef struct draft_cylinders {
     draft_cylinder *items;
     size_t          count, capacity;
+    uint64_t        grown; /* faces that growing regions took in, all together: what the work was */
 } draft_cylinders;
 
 /* Less of a circle is a rounding, which has no axis in drawings: radians. */
