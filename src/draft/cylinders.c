@@ -41,7 +41,7 @@ typedef struct finder {
     draft_faces      faces;
     uint8_t         *taken;     /* per face: what it is part of */
     uint8_t         *failed_at; /* per face: how many growths it was in that came to nothing; so work stays in bounds */
-    uint64_t  grown;    /* faces, by all growths */
+    uint64_t         grown;     /* faces, by all growths */
     uint8_t  *grown_at; /* per face: how many first growths it was in; on a ball they are wide, the last ones small */
     uint32_t *mark;     /* per face: of the growth at hand */
     uint32_t  turn;
