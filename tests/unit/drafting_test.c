@@ -869,6 +869,27 @@ static void test_header(void **state)
 #endif
 }
 
+/* A drawing that nobody has named is called as its file is, in either of the two blocks. */
+static void test_title_of_file(void **state)
+{
+    static const double groups[] = {0, 0.5};
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        lmn_sheet_desc d = usual();
+        d.frame = true;
+        d.line_group = groups[i];
+        lmn_sheet *s = draw(&d);
+        assert_int_equal(count_texts(s, "model"), 1); /* model.csg */
+        assert_string_equal(s->page.title, "model");
+        lmn_sheet_destroy(&s);
+        d.title = "Plate";
+        s = draw(&d);
+        assert_int_equal(count_texts(s, "Plate"), 1);
+        assert_int_equal(count_texts(s, "model"), 0);
+        lmn_sheet_destroy(&s);
+    }
+}
+
 static void refuse(const lmn_sheet_desc *d, lmn_status status, const char *words)
 {
     lmn_draw_desc how = LMN_DRAW_DESC_INIT;
@@ -996,6 +1017,7 @@ int main(void)
                                        cmocka_unit_test(test_axis_in_cutting_plane),
                                        cmocka_unit_test(test_title_block),
                                        cmocka_unit_test(test_header),
+                                       cmocka_unit_test(test_title_of_file),
                                        cmocka_unit_test(test_refused),
                                        cmocka_unit_test(test_out_of_memory)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
