@@ -25,11 +25,10 @@ typedef struct lmn_sheet_desc {
                           others millimetres) */
     const char *views; /* "front,top,right,iso": a sheet of views in parallel projection, at one scale, aligned; NULL:
                           the drawing's own view */
-    lmn_angle angle;
-    const char
-        *title; /* in the title block of a frame, below the drawing without one; NULL: what the file is called, none */
-    bool frame; /* a frame and a title block with the scale */
-    bool plotter; /* lines alone, by pen, in an order that makes the pen's way short */
+    lmn_angle   angle;
+    const char *title;   /* in a frame's title block, NULL: the file's name; without a frame below, NULL: none */
+    bool        frame;   /* a frame and a title block with the scale */
+    bool        plotter; /* lines alone, by pen, in an order that makes the pen's way short */
     bool
         lines_only; /* lines alone, by their middle: no pictures, no outlines of strokes. For DXF; plotter implies it */
     bool   fill;    /* the area of each part in its colour, below the lines */

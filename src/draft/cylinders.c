@@ -15,7 +15,7 @@
 #include "stroke/solid.h"
 
 enum { CYLINDER = 1, CONE };
-enum { BINS = 720, PATCH_MOST = 12, TRIES = 3, FAILED_MOST = 4 };
+enum { BINS = 720, PATCH_MOST = 12, TRIES = 3, FAILED_MOST = 4, GROWN_MOST = 32 };
 static const double pi = 3.14159265358979323846;
 static const double turn_same = 0.05;    /* of a turn: what may be off of two steps of one cone */
 static const double flat_turn = 1e-3;    /* radians: what turns less is one plane in two triangles */
@@ -41,10 +41,11 @@ typedef struct finder {
     draft_faces      faces;
     uint8_t         *taken;     /* per face: what it is part of */
     uint8_t         *failed_at; /* per face: how many growths it was in that came to nothing; so work stays in bounds */
-    uint32_t        *mark;      /* per face: of the growth at hand */
-    uint32_t         turn;
-    uint32_t        *region; /* faces of it */
-    size_t           region_count;
+    uint8_t  *grown_at; /* per face: how many first growths it was in; on a ball they are wide, the last ones small */
+    uint32_t *mark;     /* per face: of the growth at hand */
+    uint32_t  turn;
+    uint32_t *region; /* faces of it */
+    size_t    region_count;
     double (*points)[3];
     size_t         point_count;
     region        *found;
@@ -390,10 +391,21 @@ static double arc_of_growth(finder *f, const cylinder_fit *c)
     return sweep_of(&whole);
 }
 
+static void grow_first(finder *f, const cylinder_fit *c, uint32_t seed)
+{
+    grow(f, c, seed, tolerances[0]);
+    for (size_t i = 0; i < f->region_count; i++)
+        if (f->grown_at[f->region[i]] < GROWN_MOST)
+            f->grown_at[f->region[i]]++;
+}
+
 static bool settle(finder *f, cylinder_fit *c, uint32_t seed)
 {
     for (int i = 0; i < TRIES; i++) {
-        grow(f, c, seed, tolerances[i]);
+        if (i == 0)
+            grow_first(f, c, seed);
+        else
+            grow(f, c, seed, tolerances[i]);
         if (f->region_count < 3 || arc_of_growth(f, c) < arc_least ||
             !cylinder_refine(c, (const double(*)[3])f->points, f->point_count))
             return false;
@@ -511,20 +523,23 @@ static lmn_status find_in_mesh(finder *f, const edge_mesh *m, lmn_error *error)
     f->near = 2e-7 * size;
     f->taken = mem_calloc((size_t)m->face_count + 1, 1);
     f->failed_at = mem_calloc((size_t)m->face_count + 1, 1);
+    f->grown_at = mem_calloc((size_t)m->face_count + 1, 1);
     f->mark = mem_calloc((size_t)m->face_count + 1, sizeof *f->mark);
     f->region = mem_alloc(((size_t)m->face_count + PATCH_MOST) * sizeof *f->region);
     f->points = mem_alloc(((size_t)m->face_count + PATCH_MOST) * 3 * sizeof *f->points);
     f->trimmer = m->solid ? solid_trimmer_create(m->solid) : NULL;
-    f->failed = !f->taken || !f->failed_at || !f->mark || !f->region || !f->points || (m->solid && !f->trimmer);
+    f->failed =
+        !f->taken || !f->failed_at || !f->grown_at || !f->mark || !f->region || !f->points || (m->solid && !f->trimmer);
     if (f->failed || draft_faces_make(&f->faces, m, error) != LMN_OK)
         return error_memory(error);
     for (int kind = 0; kind < 2; kind++) {
         f->cones = kind == 1;
         memset(f->failed_at, 0, m->face_count);
+        memset(f->grown_at, 0, m->face_count);
         for (uint32_t i = 0; i < m->face_count && !f->failed; i++) {
             if (i % 1024 == 0 && work_stopped())
                 return error_memory(error);
-            if (!f->taken[i] && f->failed_at[i] < FAILED_MOST)
+            if (!f->taken[i] && f->failed_at[i] < FAILED_MOST && f->grown_at[i] < GROWN_MOST)
                 f->cones ? search_cone(f, i) : search(f, i);
         }
     }
@@ -538,6 +553,7 @@ static void release(finder *f)
     solid_trimmer_destroy(&f->trimmer);
     mem_free(f->taken);
     mem_free(f->failed_at);
+    mem_free(f->grown_at);
     mem_free(f->mark);
     mem_free(f->region);
     mem_free(f->points);

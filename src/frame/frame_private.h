@@ -135,6 +135,8 @@ view_camera ground_camera(const ground_plane *ground, const ground_square *s, bo
 gpu_texture *ground_depth(frame *f, const view_camera *camera);
 /* From eye space to 0 … 1 over what the eye below sees. */
 mat4 ground_map_from_eye(const frame *f, const view_camera *below);
+/* Can the figure's medium draw the ground? */
+bool ground_is_drawn_by(const frame *f, const figure *fig);
 /* For a technique that draws the shadow: begins the pictures that the ground has as a figure has its own, with the
  * program that fills them; false: there is none. Then the ground is shaded and laid onto the page, over it or instead
  * of it, and its pictures are given back. */

@@ -342,8 +342,7 @@ static void draw_shaded(frame *f, figure_state *s, const view_camera *below, gpu
     ground_shade(f, s, false);
 }
 
-/* Can the figure's medium draw it? */
-static bool is_drawn_by(const frame *f, const figure *fig)
+bool ground_is_drawn_by(const frame *f, const figure *fig)
 {
     const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
     const surface_row   *row = surface ? surface->technique->surface : NULL;
@@ -365,7 +364,7 @@ void ground_draw(frame *f)
     ground_square square = square_of(&f->ground_plane);
     view_camera   below = ground_camera(&f->ground_plane, &square, true);
     figure_state  s = {.figure = &fig, .near = f->camera.near, .far = f->camera.far, .ground = true};
-    bool          drawn = is_drawn_by(f, &fig);
+    bool          drawn = ground_is_drawn_by(f, &fig);
     find_pixels(f, &square, drawn ? DRAWN_MARGIN : MARGIN, s.pixels);
     window_clip(f, WINDOW_MARGIN, s.pixels);
     memcpy(s.around, s.pixels, sizeof s.around);

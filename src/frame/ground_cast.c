@@ -163,31 +163,53 @@ static void set_cast(frame *f, const cast_maps *maps)
     gpu_set_vec4(f->g, "u_ground_colour", (float[]){c.r, c.g, c.b, c.a});
 }
 
-/* Does the figure's medium draw it? */
-static bool is_drawn_by(const frame *f, const figure *fig)
+/* Who draws it: no one, so that it is laid as it is; the figure's medium, as something of its own colour over the page;
+ * or the medium's strokes, as they draw what the model touches. Hard ones are flat shapes, whose border strokes would
+ * fray. */
+typedef enum cast_by { CAST_BY_NONE, CAST_BY_MEDIUM, CAST_BY_STROKES } cast_by;
+
+static cast_by drawn_by(const frame *f, const figure *fig)
 {
+    const scene_values  *v = values_of(f);
     const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
     const surface_row   *row = surface ? surface->technique->surface : NULL;
-    return row && row->casts_on_ground && !fig->layered && !values_of(f)->ground_flat &&
-           !(values_of(f)->ground_hatch > 0);
+    if (!row || fig->layered || v->ground_flat || v->ground_hatch > 0)
+        return CAST_BY_NONE;
+    if (row->casts_on_ground)
+        return CAST_BY_MEDIUM;
+    return v->shadow_softness > 0 && ground_is_drawn_by(f, fig) ? CAST_BY_STROKES : CAST_BY_NONE;
+}
+
+static void draw_cast(frame *f, figure_state *s, const cast_maps *maps, text *prelude, cast_by by)
+{
+    memcpy(s->around, s->pixels, sizeof s->around);
+    if (ground_buffers(f, s, "light/ground_cast.frag", prelude)) {
+        set_cast(f, maps);
+        if (by == CAST_BY_STROKES) /* their ink is their own */
+            gpu_set_vec4(f->g, "u_ground_colour", (float[]){1, 1, 1, 1});
+        gpu_draw_screen(f->g);
+    }
+    if (by == CAST_BY_STROKES) {
+        s->geometry = s->targets[TARGET_NORMAL_DEPTH];
+        if (!gpu_failed(f->g))
+            passes_prepare(f, s);
+    }
+    ground_shade(f, s, by == CAST_BY_MEDIUM);
 }
 
 static void lay_cast(frame *f, figure_state *s, const cast_maps *maps)
 {
     const scene_values *v = values_of(f);
-    bool                soft = !maps->dark, drawn = is_drawn_by(f, s->figure);
+    bool                soft = !maps->dark;
+    cast_by             by = drawn_by(f, s->figure);
     text                prelude = {0};
-    text_append(&prelude, "%s%s%s%s%s%s", v->ground_hatch > 0 ? "#define HATCHED\n" : "", soft ? "#define SOFT\n" : "",
-                !soft && v->ground_edge > 0 ? "#define EDGED\n" : "", maps->height ? "#define FADING\n" : "",
-                v->ground_flat ? "#define FLAT\n" : "", drawn ? "#define SHADED\n" : "");
+    text_append(&prelude, "%s%s%s%s%s%s%s", v->ground_hatch > 0 ? "#define HATCHED\n" : "",
+                soft ? "#define SOFT\n" : "", !soft && v->ground_edge > 0 ? "#define EDGED\n" : "",
+                maps->height ? "#define FADING\n" : "", v->ground_flat ? "#define FLAT\n" : "",
+                by ? "#define SHADED\n" : "", by == CAST_BY_STROKES ? "#define STROKED\n" : "");
     target_declare(&prelude, &target_rows[TARGET_SHADOW]);
-    if (drawn) {
-        memcpy(s->around, s->pixels, sizeof s->around);
-        if (ground_buffers(f, s, "light/ground_cast.frag", &prelude)) {
-            set_cast(f, maps);
-            gpu_draw_screen(f->g);
-        }
-        ground_shade(f, s, true);
+    if (by) {
+        draw_cast(f, s, maps, &prelude, by);
         return;
     }
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/ground_cast.frag", &prelude);

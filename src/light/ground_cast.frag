@@ -14,6 +14,7 @@ uniform uint u_ground_part;
 layout(location = 0) out vec4  out_normal_depth;
 layout(location = 1) out uvec4 out_id;
 layout(location = 2) out vec4  out_albedo;
+const float FAINTEST = 0.03; /* as there */
 #else
 layout(location = 0) out vec4 out_0;
 #endif
@@ -235,6 +236,9 @@ void main()
 #endif
 #ifdef EDGED
     shade = max(shade, edge_at(gl_FragCoord.xy));
+#endif
+#ifdef STROKED
+    shade = max(shade - FAINTEST, 0.0) / (1.0 - FAINTEST);
 #endif
 #ifdef SHADED
     if (shade <= 0.0)

@@ -44,13 +44,19 @@ float sky_fraction(surface_point p)
 #endif
 }
 
-/* Sum of the lights' diffuse terms; this fraction of the first one arrives. */
-vec3 diffuse_light_of(surface_point p, float first)
+/* Sum of the lights' diffuse terms under an open sky; this fraction of the first one arrives. */
+vec3 open_light_of(surface_point p, float first)
 {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < LIGHT_COUNT; i++)
         sum += u_light_colour[i].rgb * (max(dot(p.normal, towards_light(i, p.eye)), 0.0) * (i == 0 ? first : 1.0));
-    return sum * sky_fraction(p);
+    return sum;
+}
+
+/* The same where corners and clefts leave less of it. */
+vec3 diffuse_light_of(surface_point p, float first)
+{
+    return open_light_of(p, first) * sky_fraction(p);
 }
 
 vec3 diffuse_light(surface_point p)

@@ -56,8 +56,8 @@ static const param params[] = {
                    .doc = "contact: the model stands on a ground, which is darker where it is touched or nearly so; "
                           "pencils and printed screens draw that, others lay a tone. cast: the first light throws "
                           "the model's shadow there, as soft as shadow_softness, as a tone, where most of it stands on "
-                          "one level. Not seen from below, nor "
-                          "in sections."),
+                          "one level; soft ones are drawn by pencils, sticks, stippling and printed screens. Not "
+                          "seen from below, nor in sections."),
     PARAM_FLOAT_ROW(scene_values, ground_strength, .def = 0.55, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .cpu_only = true, .only_if = "ground",
                     .doc = "How dark the ground is where it is touched, or where no light falls."),

@@ -280,6 +280,15 @@ static bool is_black(const mark_style *style, double cover)
     return (style->white ? 1 - cover : cover) >= (double)style->black;
 }
 
+/* What is left of a cover on a face of so many distances: the first set fills one that has no room for it; further
+ * ones, which need more, are only left out. */
+static double in_room(const mark_style *style, double cover, double dark, double distances, int set)
+{
+    double roomy = mark_flow_room(distances, (double)style->room * (1 + set));
+    bool   filled = set == 0 && style->black > 0 && is_black(style, dark) != style->white;
+    return roomy * cover + (filled ? (1 - roomy) * FLOW_FILLED : 0);
+}
+
 /* How wide a line that flows is at an end of a piece, pixels: surface/marks_lines.vert in doubles. */
 static float flow_width(const pager *g, const marks *m, const mark_line *l, int end)
 {
@@ -300,9 +309,7 @@ static float flow_width(const pager *g, const marks *m, const mark_line *l, int 
                         ? mark_flow_sparse(l, (double)e->to_edge * across / scale, (double)g->style->sparse, least)
                         : 0;
     cover = g->style->white ? fmin(cover, 1 - sparse) : fmax(cover, sparse);
-    double roomy = mark_flow_room((double)e->room * across / scale, (double)g->style->room * (1 + l->set));
-    cover = roomy * cover +
-            (1 - roomy) * (is_black(g->style, dark) != g->style->white && g->style->black > 0 ? FLOW_FILLED : 0);
+    cover = in_room(g->style, cover, dark, (double)e->room * across / scale, l->set);
     double low = least / (1 + 5 * (double)g->style->fade),
            thin = least > 0 ? fmin(fmax((cover - low) / (least - low), 0), 1) : 1;
     double to_end = (double)e->to_end * across / scale;

@@ -24,8 +24,10 @@ static const double ACROSS = 0.6;        /* where the field's arms change, strai
 static const double FREE = 0.76;         /* nearer to another line none begins */
 static const double TWO_FROM = 1.6;      /* a gap this wide takes a line */
 static const double LEAST = 5;           /* length of a line that ends at others */
-static const double LONELY = 1.5;        /* where nothing is nearer, */
-static const double LEAST_LONELY = 3;    /* a shorter one is better than a hole */
+static const double LONELY = 1.1;        /* where nothing is nearer, */
+static const double LEAST_LONELY = 3;    /* a shorter one is better than unevenly wide neighbours, */
+static const double HOLE = 1.5;          /* and where nothing is that near, */
+static const double LEAST_IN_HOLE = 2;   /* a still shorter one is better than a hole */
 static const double LEAST_BOUNDED = 0.7; /* and of one that runs from edge to edge, */
 static const double LEAST_NARROW = 0.3;  /* and of one across a face that is narrower than lines are apart */
 static const double HUG = 0.3;           /* nearer to an edge no line begins */
@@ -39,6 +41,7 @@ typedef struct flow_maker {
     flow_grid           grid;
     double              turn, apart; /* of the level */
     bool                measures;    /* strips are asked for */
+    bool                crosses;     /* another set, which draws tone already */
     int                 level;
     random_source       random;
     flow_point         *points; /* of the line that is being walked: backwards from the seed, then forwards */
@@ -236,8 +239,9 @@ static double length_within(const flow_maker *m, const uint32_t beyond[2])
     return m->count ? (double)m->points[m->count - 1 - beyond[1]].arc - (double)m->points[beyond[0]].arc : 0;
 }
 
-/* Walks both ways from a seed. A line that is too short is none, and leaves nothing in the grid. */
-static bool trace_line(flow_maker *m, const flow_position *seed, bool lonely)
+/* Walks both ways from a seed. A line that is too short is none, and leaves nothing in the grid: `free_end`: the least
+ * of one that ends at others. */
+static bool trace_line(flow_maker *m, const flow_position *seed, double free_end)
 {
     size_t   samples = m->grid.count;
     uint32_t line = (uint32_t)m->out->line_count;
@@ -264,7 +268,7 @@ static bool trace_line(flow_maker *m, const flow_position *seed, bool lonely)
     }
     bool   closed = first == END_LOOP, bounded[2] = {first == END_EDGE, second == END_EDGE};
     double across = (double)m->f->rooms[seed->triangle] < m->apart ? LEAST_NARROW : LEAST_BOUNDED;
-    double length = length_within(m, beyond), free_end = lonely ? LEAST_LONELY : LEAST;
+    double length = length_within(m, beyond);
     double least = closed ? 2 : bounded[0] && bounded[1] ? across : free_end;
     if (m->count < 2 || length < least * m->apart) {
         flow_grid_shorten(&m->grid, samples);
@@ -309,6 +313,17 @@ static bool hugs_an_edge(const flow_maker *m, const flow_position *p)
            ends_beside(m, p, (d3){-left.x, -left.y, -left.z}, HUG * m->apart);
 }
 
+/* The least length of a line that ends at others: where there is room for it, shorter ones are better than none, most
+ * so in the set that has to draw tone alone. Whole strokes have a tone of their own, and short ones would be hair. */
+static double least_at(const flow_maker *m, const flow_sample *s)
+{
+    bool hole = m->measures && !flow_grid_is_near(&m->grid, s, HOLE * m->apart, 0);
+    if (hole)
+        return m->crosses ? LEAST_LONELY : LEAST_IN_HOLE;
+    bool lonely = m->measures && !m->crosses && !flow_grid_is_near(&m->grid, s, LONELY * m->apart, 0);
+    return lonely ? LEAST_LONELY : LEAST;
+}
+
 /* A seed, if nothing is near. */
 static bool try_seed(flow_maker *m, flow_position *p, d3 like)
 {
@@ -317,8 +332,7 @@ static bool try_seed(flow_maker *m, flow_position *p, d3 like)
     if (flow_grid_is_near(&m->grid, &s, FREE * m->apart, 0) || !flow_direction(m->f, p, m->turn, like, &p->direction) ||
         hugs_an_edge(m, p))
         return true;
-    /* Whole strokes have a tone of their own: short ones would be hair. */
-    return trace_line(m, p, m->measures && !flow_grid_is_near(&m->grid, &s, LONELY * m->apart, 0));
+    return trace_line(m, p, least_at(m, &s));
 }
 
 /* --- gaps beside a line --------------------------------------------------------------------------------- */
@@ -539,6 +553,7 @@ lmn_status flow_lines_make(flow_lines *out, const flow_surface *f, const flow_op
                     .f = f,
                     .turn = set * (double)w->turn,
                     .measures = !w->whole,
+                    .crosses = set > 0,
                     .random = random_start(w->seed + (uint32_t)set * 7919u, 0xF10E)};
     double     area = mark_surface_area(f->surface);
     bool       done = area > 0;

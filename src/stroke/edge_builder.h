@@ -77,7 +77,7 @@ bool edges_take(edge_builder *b, uint32_t low, const half_edge *group, size_t co
 
 /* Volume of each closed piece, or NULL when memory is gone: freed by the caller. Finds boxes and which look inwards. */
 double *edges_measure_pieces(edge_mesh *m);
-/* Of closed pieces, concave edges are no candidates. */
-void edges_drop_concave(edge_mesh *m, const double *volumes);
+/* Of closed pieces, candidates that are concave are hollow, and come last. False: no memory. */
+bool edges_mark_hollow(edge_mesh *m, const double *volumes);
 
 #endif

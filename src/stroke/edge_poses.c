@@ -189,7 +189,7 @@ static lmn_status judge_again(edge_builder *b, const edge_topology *t, lmn_error
     bool good = close_ranges(&j) && j.has_measured && j.volumes && creases_judge(m, &j.facts, &j.measured);
     if (good) {
         memcpy(m->closed, t->mesh.closed, m->piece_count * sizeof *m->closed);
-        edges_drop_concave(m, j.volumes);
+        good = edges_mark_hollow(m, j.volumes);
     }
     mem_free(j.volumes);
     return good && drawn_close(m) ? LMN_OK : error_memory(error);

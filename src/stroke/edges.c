@@ -389,25 +389,40 @@ static bool open_pieces(edge_builder *b, uint32_t low, const half_edge *group, s
     return true;
 }
 
-/* Concave edges of closed pieces never are outlines. Which way round a piece is says its volume. */
-void edges_drop_concave(edge_mesh *m, const double *volumes)
+/* Is it nothing but an outline that is always hidden? */
+static bool is_hollow_alone(const mesh_edge *e)
 {
+    return (e->flags & ~(uint32_t)EDGE_TWISTED) == (EDGE_CANDIDATE | EDGE_HOLLOW);
+}
+
+/* Outlines along concave edges of closed pieces are always hidden. Which way round a piece is says its volume. Those
+ * that are nothing else come last: what is seen has the same numbers with them and without. */
+bool edges_mark_hollow(edge_mesh *m, const double *volumes)
+{
+    uint32_t   kept = 0, apart = 0;
+    mesh_edge *hollow = mem_alloc(((size_t)m->edge_count + 1) * sizeof *hollow);
     for (uint32_t i = 0; i < m->piece_count; i++)
         m->inward[i] = volumes[i] < 0;
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < m->edge_count; i++) {
+    for (uint32_t i = 0; i < m->edge_count && hollow; i++) {
         mesh_edge e = m->edges[i];
         uint32_t  piece = m->pieces[e.face[0]];
         bool      convex = ((e.flags & EDGE_CONVEX) != 0) != m->inward[piece];
-        if (m->closed[piece] && !convex)
-            e.flags &= ~(uint32_t)EDGE_CANDIDATE;
+        if (m->closed[piece] && !convex && e.flags & EDGE_CANDIDATE)
+            e.flags |= EDGE_HOLLOW;
         e.flags &= ~(uint32_t)EDGE_CONVEX;
-        if (e.flags & ~(uint32_t)EDGE_TWISTED)
+        if (is_hollow_alone(&e))
+            hollow[apart++] = e;
+        else if (e.flags & ~(uint32_t)EDGE_TWISTED)
             m->edges[kept++] = e;
     }
-    m->edge_count = kept;
-    mesh_edge *smaller = mem_realloc(m->edges, (size_t)kept * sizeof *smaller);
-    m->edges = smaller || kept == 0 ? smaller : m->edges;
+    if (!hollow)
+        return false;
+    memcpy(m->edges + kept, hollow, apart * sizeof *hollow);
+    mem_free(hollow);
+    m->edge_count = kept + apart;
+    mesh_edge *smaller = mem_realloc(m->edges, (size_t)m->edge_count * sizeof *smaller);
+    m->edges = smaller || m->edge_count == 0 ? smaller : m->edges;
+    return true;
 }
 
 static bool pair_halves(edge_builder *b, uint32_t low, const half_edge *group, size_t count)
@@ -477,9 +492,9 @@ static lmn_status sort_edges(edge_builder *b, lmn_error *error)
     if (!volumes)
         return error_memory(error);
     each_edge(b, open_pieces);
-    edges_drop_concave(m, volumes);
+    bool marked = edges_mark_hollow(m, volumes);
     mem_free(volumes);
-    return drawn_close(m) ? LMN_OK : error_memory(error);
+    return marked && drawn_close(m) ? LMN_OK : error_memory(error);
 }
 
 /* Sorts the edges of the faces that are there, unless making them failed. */

@@ -13,7 +13,7 @@ typedef enum edge_flag {
     EDGE_MATERIAL = 1 << 2, /* its faces have different materials */
     EDGE_CANDIDATE =
         1 << 3, /* an outline from where one face is seen from the front and the other from behind: smooth and strictly
-                 * convex, or smooth and not flat where the piece it belongs to is not closed */
+                 * convex, or smooth and not flat where the piece it belongs to is not closed, or EDGE_HOLLOW */
     EDGE_TWISTED = 1 << 4, /* beside others: both faces pass it the same way, so that one of them is inside out */
     EDGE_QUIET = 1 << 6,   /* turns by more than the crease angle but is no crease: no line unless it is an outline */
     EDGE_HOLLOW = 1 << 7, /* beside EDGE_CANDIDATE: of a hollow, so that the outline is always hidden: sides of bores */

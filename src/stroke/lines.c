@@ -89,7 +89,8 @@ static stroke_class class_of(const collector *c, size_t mesh, const mesh_edge *e
     bool turns = differ != ((e->flags & EDGE_TWISTED) != 0);
     bool as_edges = w->contours == CONTOURS_EDGES || (w->contours == CONTOURS_SMOOTH && (e->flags & EDGE_CREASE)) ||
                     (w->contours == CONTOURS_SMOOTH && c->v->scene->meshes[mesh].solid);
-    if (turns && as_edges && (e->flags & (EDGE_CREASE | EDGE_CANDIDATE)) && !has_calm_outline(c->v->scene, mesh))
+    bool asked = (e->flags & EDGE_CREASE) || ((e->flags & EDGE_CANDIDATE) && (w->hidden || !(e->flags & EDGE_HOLLOW)));
+    if (turns && as_edges && asked && !has_calm_outline(c->v->scene, mesh))
         return STROKE_CONTOUR;
     if ((e->flags & EDGE_CREASE) && w->creases)
         return STROKE_CREASE;

@@ -1,5 +1,6 @@
 /* Strokes of a broad pen over the page: side by side, each a little over the one before, in lengths that a hand draws at once. */
 #include "gpu/hash.glsl"
+#include "surface/halftone/noise.glsl"
 
 const vec2  PEN_ALONG = vec2(0.7986, 0.6018);
 const float PEN_APART = 0.9;  /* from stroke to stroke, in their width */
@@ -7,6 +8,8 @@ const float PEN_LENGTH = 9.0; /* of the longest, in their width */
 const float PEN_SLANT = 0.9;   /* of its tip: along over across */
 const float PEN_FIBRES = 6.0;  /* in its width */
 const float PEN_RAGGED = 0.8;  /* how unevenly they end, in its width */
+const float PEN_GROUPS = 0.2;  /* how far what a hand leaves out hangs together */
+const float UNTINTED = 0.55;   /* how much less light must fall on light grey before it is laid over */
 const float PEN_ONCE = 0.62;   /* of the colour, what one stroke lays */
 
 vec2 of_pen(int row, int piece)
@@ -28,7 +31,7 @@ float left_by(int row, vec2 at, float dark)
     float along = (at.x / width + drawn_farther(row, across)) / PEN_LENGTH + 0.5 * own, sway = 0.06 * sin(9.0 * along + 6.28 * own) + 0.08 * of_pen(row, 0).y;
     int   piece = int(floor(along)) + 1;
     vec2  random = of_pen(row, piece);
-    float side = 0.5 - abs(across - sway), bound = 0.5 * (0.5 + 0.5 * random.x) - 0.3;
+    float side = 0.5 - abs(across - sway), bound = 0.5 * (0.5 + 0.5 * random.x) - 0.3 + PEN_GROUPS * plane_noise(at / (7.0 * width), 91u).x;
     return 1.0 - PEN_ONCE * clamp(side * width + 0.5, 0.0, 1.0) * clamp((dark - bound) * 12.0 + 0.5, 0.0, 1.0);
 }
 

@@ -142,7 +142,8 @@ float half_width_at(mark_position m, vec3 direction, float spaces, float to_end,
     float needed = u_room * (1.0 + set), roomy = smoothstep(0.5 * needed, needed, room * across / u_scale);
     cover *= roomy;
 #ifdef WITH_BLACK
-    cover += (1.0 - roomy) * FILLED * (strokes_are_light() ? step(1.0 - dark, u_black) : step(u_black, dark));
+    /* The first set fills what has no room for it; further ones, which need more, are only left out. */
+    cover += set < 0.5 ? (1.0 - roomy) * FILLED * (strokes_are_light() ? step(1.0 - dark, u_black) : step(u_black, dark)) : 0.0;
     most = strokes_are_light() ? most : min(most, room * across);
 #endif
 #endif

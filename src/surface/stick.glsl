@@ -138,7 +138,10 @@ const float SPAN = 0.4; /* and how far from it, of all there is to either side, 
 /* White from the paper's own tone up, black from there down. */
 vec4 toned(vec4 paper, vec3 own, float tone)
 {
-    vec3 white = mix(u_ink.rgb, own, u_ink_tint), black = mix(u_second_ink.rgb, own * 0.35, 0.45 * u_ink_tint); /* black takes less of it: shades stay deep */
+    /* What has a colour gets pastels of it, light ones and deep ones; of greys black takes less, so that shades stay deep. */
+    float colourful = smoothstep(0.1, 0.35, max(own.r, max(own.g, own.b)) - min(own.r, min(own.g, own.b)));
+    vec3 pale = mix(own, vec3(1.0), 0.35 * colourful);
+    vec3 white = mix(u_ink.rgb, pale, min(mix(1.0, 2.0, colourful) * u_ink_tint, 1.0)), black = mix(u_second_ink.rgb, own * 0.4, min(mix(0.45, 1.6, colourful) * u_ink_tint, 1.0));
     float w = dot(white, LUMINANCE), b = dot(black, LUMINANCE), g = dot(paper.rgb, LUMINANCE);
     float up = max(w - g, 0.02) * u_darkest, down = max(g - b, 0.02) * u_darkest, middle = down / (up + down);
     float above = clamp((tone - middle) / (1.0 - middle), 0.0, 1.0), below = clamp((middle - tone) / middle, 0.0, 1.0);

@@ -4,7 +4,9 @@
 #include <math.h>
 
 #include "base/text.h"
+#include "surface/halftone/halftone.h"
 #include "surface/marks.h"
+#include "surface/on_ground.h"
 #include "surface/surface.h"
 
 static const param params[] = {
@@ -47,6 +49,12 @@ static void stipple_by_pen(void *values)
     v->grow = 1;
 }
 
+static bool stipple_on_ground(const void *values, colour ground)
+{
+    const stipple_values *v = values;
+    return draws_ground(&(halftone_values){.ink = v->common.ink, .paper = v->common.paper}, ground);
+}
+
 const technique surface_stipple = {
     .name = "stipple",
     .doc = "Dots on the surface itself, evenly spread, whose number makes the tone.",
@@ -55,5 +63,8 @@ const technique surface_stipple = {
     .param_count = PARAM_COUNT(params),
     .params_size = sizeof(stipple_values),
     .channels = CHANNEL_NORMAL_DEPTH,
-    .surface = &(const surface_row){.as_marks = stipple_by_pen, .shader = "surface/marks_paper.glsl", .marks = &source},
+    .surface = &(const surface_row){.as_marks = stipple_by_pen,
+                                    .on_ground = stipple_on_ground,
+                                    .shader = "surface/stipple.glsl",
+                                    .marks = &source},
 };

@@ -18,16 +18,16 @@ vec4 change_of(surface_point p, vec4 own, ivec2 pixel, ivec2 axis)
     return low && high ? 0.5 * (upper - lower) : low ? own - lower : high ? upper - own : vec4(0.0);
 }
 
-/* Colours over a disc of u_smoothing pixels, but at most COLOURS: not across borders of parts, creases and steps of depth, and of them only those that are alike; and how much of the disc is the surface's own, if its `borders` are asked for. Taps lie on
+/* Colours over a disc of u_smoothing pixels, but at most COLOURS, or FLAT_COLOURS where they are to be flat: not across borders of parts, creases and steps of depth, and of them only those that are alike; and how much of the disc is the surface's own, if its `borders` are asked for. Taps lie on
  * Fermat's spiral, the same at each pixel, so that what comes out is as smooth as the weights are. */
 surroundings surroundings_of(surface_point p, bool borders)
 {
     const float UNLIKE = 0.03; /* as noise of compressed pictures is not */
-    const int TAPS = 24, PROBES = 8;
-    const float COLOURS = 16.0; /* 1/96 inch */
+    const int TAPS = 24, PROBES = 8, FLATTER = 5;
+    const float COLOURS = 16.0, FLAT_COLOURS = 32.0; /* 1/96 inch */
     ivec2 here = ivec2(gl_FragCoord.xy);
     vec3 own = sqrt(p.albedo.rgb), colours = own; /* as near to what is shown as it takes */
-    float weights = 1.0, colour_weights = 1.0, all = 1.0, radius = min(u_smoothing, COLOURS * page_unit());
+    float weights = 1.0, colour_weights = 1.0, all = 1.0, radius = min(u_smoothing, (borders ? COLOURS : FLAT_COLOURS) * page_unit());
     /* One colour all around, as most models have: there is nothing to smooth. */
     float unlike = borders ? 1.0 : 0.0;
     for (int i = 0; i < PROBES; i++) {
@@ -37,6 +37,7 @@ surroundings surroundings_of(surface_point p, bool borders)
         unlike += texelFetch(t_id, pixel, 0).r == p.part ? off.r + off.g + off.b : 0.0;
     }
     int taps = unlike > UNLIKE ? TAPS : 0;
+    vec4 seen[TAPS];
     for (int i = 0; i < taps; i++) {
         float distance = sqrt((float(i) + 0.5) / float(TAPS)), angle = 2.39996323 * float(i);
         vec2 at = floor(gl_FragCoord.xy + radius * distance * vec2(cos(angle), sin(angle)));
@@ -54,6 +55,22 @@ surroundings surroundings_of(surface_point p, bool borders)
         all += 1.0 - distance * distance;
         colours += alike * colour;
         colour_weights += alike;
+        seen[i] = vec4(colour, weight);
+    }
+    vec3 mean = colours / colour_weights;
+    float kept = smoothstep(0.04, 0.14, (colour_weights - 1.0) / max(weights - 1.0, 1e-3)); /* a border's pixels are like none of its sides */
+    /* From there uphill to what most of them are (mean shift, Comaniciu and Meer 2002): a glow goes to one of the colours it joins. */
+    for (int round_ = 0; round_ < (borders || taps == 0 ? 0 : FLATTER); round_++) {
+        float self = exp(-16.0 * dot(own - mean, own - mean));
+        colours = self * own + 1e-4 * mean;
+        colour_weights = self + 1e-4;
+        for (int i = 0; i < taps; i++) {
+            vec3 off = seen[i].rgb - mean;
+            float alike = seen[i].w * exp(-16.0 * dot(off, off));
+            colours += alike * seen[i].rgb;
+            colour_weights += alike;
+        }
+        mean = colours / colour_weights;
     }
     vec4 form = texelFetch(t_form, here, 0), across = change_of(p, form, here, ivec2(1, 0)), up = change_of(p, form, here, ivec2(0, 1));
 #ifdef HAS_SOFT_SHADOW
@@ -61,6 +78,6 @@ surroundings surroundings_of(surface_point p, bool borders)
 #else
     float light = clamp((form.w - 0.5) / max(length(vec2(across.w, up.w)), 0.01) + 0.5, 0.0, 1.0);
 #endif
-    return surroundings(form.xyz, across.xyz, up.xyz, pow(colours / colour_weights, vec3(2.0)), weights / all, light);
+    return surroundings(form.xyz, across.xyz, up.xyz, pow(borders || taps == 0 ? mean : mix(own, mean, kept), vec3(2.0)), weights / all, light);
 }
 #endif

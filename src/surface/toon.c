@@ -6,7 +6,7 @@
 typedef struct toon {
     int32_t bands;
     float   softness, gradation, shadow, light, highlight, saturation, smoothing, darkest, lightness, blacks, feather,
-        spacing, spotted;
+        spacing, spotted, reflected;
     colour shade, bright, ink;
     bool   seed_blur;
 } toon;
@@ -34,7 +34,7 @@ static const param params[] = {
                     .doc = "Saturation of the tones; cartoons like more than nature."),
     PARAM_FLOAT_ROW(toon, smoothing, .def = 0, .min = 0, .max = 100, .soft_max = 40, .unit = UNIT_PT,
                     .doc =
-                        "Light is smoothed over this radius before tones are told apart, textures over at most 12 pt "
+                        "Light is smoothed over this radius before tones are told apart, textures over at most 24 pt "
                         "of it, within a part and not across creases: borders of tones no longer follow the faces of "
                         "a mesh; 0 leaves both as they are. Not in what is seen through."),
     PARAM_FLOAT_ROW(toon, darkest, .def = 0, .min = 0, .max = 0.33, .unit = UNIT_FRACTION,
@@ -55,6 +55,9 @@ static const param params[] = {
                            "(scene.occlusion), and of what is dark itself."),
     PARAM_COLOUR_ROW(toon, ink, .def_colour = {13 / 255.0F, 11 / 255.0F, 18 / 255.0F, 1}, .only_if = "blacks>0",
                      .doc = "Ink of the blacks."),
+    PARAM_FLOAT_ROW(toon, reflected, .def = 0, .min = 0, .max = 2, .soft_max = 0.6, .unit = UNIT_FRACTION,
+                    .doc = "How much lighter the darkest tone is where it looks to what throws light back, opposite "
+                           "the first light: a step of its own in the colour of shade; 0: there is none."),
     PARAM_BOOL_ROW(toon, seed_blur, .def = 0,
                    .doc = "Smooths tone borders by blurring the shade map as Nienhaus (2005) does, instead of by the "
                           "border's own distance."),

@@ -21,12 +21,23 @@ float banded(float light, float slope)
     return lower + (upper - lower) * rise - (lower - before) * fall;
 }
 
-float tone_light(surface_point p, float first)
+/* Half of what is seen of a ball's shade, about, has the light that comes back. */
+const float RETURNS = 0.52;
+
+/* How much a surface looks to where light comes back from, opposite the first one, less from below than that came from above: from what stands around. Clefts see little of it. */
+float reflected_light(surface_point p, float sky)
 {
-    return min(dot(diffuse_light_of(p, first), vec3(0.2126, 0.7152, 0.0722)), 1.0);
+    vec3 light = towards_light(0, p.eye);
+    return dot(p.normal, normalize(vec3(-light.x, -0.6 * light.y, 0.05))) * sky;
+}
+
+float tone_light(surface_point p, float first, float sky)
+{
+    return min(sky * dot(open_light_of(p, first), vec3(0.2126, 0.7152, 0.0722)), 1.0);
 }
 
 #include "surface/surroundings.glsl"
+#include "surface/calm.glsl"
 
 /* The colour that is shown, and no fill is darker than u_darkest: ink stays legible on it. What is darker still keeps its order. */
 vec3 legible(vec3 colour)
@@ -69,25 +80,33 @@ float stripe(float along)
     return length_ * (1.0 - sqrt(abs(2.0 * fract(along) - 1.0)));
 }
 
-/* By how much more than its own turn from the light a place is black: where little of the sky is seen, and what is dark itself and has no colour to lose. Where less than a quarter of the sky is hidden lies no cleft:
- * what is measured there is grain. */
-float spotted(surface_point p)
+/* What is dark itself and has no colour to lose, 0 … 1. */
+float darkness(surface_point p)
 {
-    float dark = 1.0 - smoothstep(0.15, 0.4, dot(shown(p.albedo.rgb), vec3(0.2126, 0.7152, 0.0722)));
     vec3 colour = shown(p.albedo.rgb);
-    dark *= 1.0 - smoothstep(0.06, 0.16, max(max(colour.r, colour.g), colour.b) - min(min(colour.r, colour.g), colour.b));
-    return u_spotted * (clamp(1.5 - 2.0 * sky_fraction(p), 0.0, 1.0) + 0.3 * dark);
+    float dark = 1.0 - smoothstep(0.15, 0.4, dot(colour, vec3(0.2126, 0.7152, 0.0722)));
+    return dark * (1.0 - smoothstep(0.06, 0.16, max(max(colour.r, colour.g), colour.b) - min(min(colour.r, colour.g), colour.b)));
+}
+
+/* By how much more than its own turn from the light a place is black: where little of the sky is seen, and what is dark itself. Where less than a quarter of the sky is `hidden` lies no cleft:
+ * what is measured there is grain. */
+float spotted(float hidden, float dark)
+{
+    return u_spotted * (clamp(2.0 * hidden - 0.5, 0.0, 1.0) + 0.3 * dark);
 }
 
 /* Are there blacks where a stroke that is here would begin? `beyond`: by how much more this place is turned to the light, which changes by `gradient` from pixel to pixel. */
 float begins(surface_point p, vec2 gradient, float beyond, vec3 light)
 {
 #ifdef SHADED_LATER
+    vec3 own = texelFetch(t_form, ivec2(gl_FragCoord.xy), 0).xyz;
     float slope = max(length(gradient), 1e-6), most = 0.0;
+    if (beyond < 1.5 * slope)
+        return 1.0; /* it begins here */
     vec2 back = gradient / slope * (max(beyond, 0.0) / slope + 1.0);
     for (int k = 1; k <= 4; k++) { /* the form may end before */
         ivec2 at = ivec2(clamp(gl_FragCoord.xy - 0.25 * float(k) * back, vec2(0.0), u_size - 1.0));
-        float less = 0.5 * dot(p.normal - texelFetch(t_form, at, 0).xyz, light);
+        float less = 0.5 * dot(own - texelFetch(t_form, at, 0).xyz, light);
         most = max(most, texelFetch(t_id, at, 0).r == p.part ? less : 0.0);
     }
     return smoothstep(0.5, 0.7, most / max(beyond, 1e-6));
@@ -98,18 +117,18 @@ float begins(surface_point p, vec2 gradient, float beyond, vec3 light)
 
 /* An inker's blacks: the fraction of the pixel that is ink. Strokes that feather them lie in planes of light: on any form these cross the border of light
  * and shadow at right angles. They keep their distance on the page within a factor of two: where it would grow beyond that, others come between. `gradient`: how fast the form
- * turns towards the light here, by a pixel; `shadow`: what else makes it black, and `blur` how much of that may change from pixel to pixel. */
-float inked(surface_point p, vec2 gradient, float blur, float shadow)
+ * turns towards the light here, by a pixel; `shadow`: what else makes it black, how that changes, and by how much more it may from pixel to pixel. */
+float inked(surface_point p, vec2 gradient, vec4 shadow)
 {
-    float slope = length(gradient);
+    float slope = length(gradient), border = length(gradient - shadow.yz);
     vec3 light = towards_light(0, p.eye);
-    float beyond = 0.5 + 0.5 * dot(p.normal, light) - 0.5 * u_blacks - shadow, reach = 0.0, reach_slope = 0.0;
-    if (beyond > slope + u_feather)
+    float beyond = 0.5 + 0.5 * dot(p.normal, light) - 0.5 * u_blacks - shadow.x, reach = 0.0, reach_slope = 0.0;
+    if (beyond > border + shadow.w + u_feather)
         return 0.0;
     if (u_feather > 0.0) {
         vec3 first = normalize(cross(light, abs(light.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0))), second = cross(light, first);
-        vec3 border = cross(p.normal, light);
-        vec3 axis = abs(dot(first, border)) > abs(dot(second, border)) ? first : second;
+        vec3 rim = cross(p.normal, light);
+        vec3 axis = abs(dot(first, rim)) > abs(dot(second, rim)) ? first : second;
         float along = dot((u_world_from_eye * vec4(p.eye, 1.0)).xyz, mat3(u_world_from_eye) * axis);
         float slope_along = length(vec2(dot(on_plane(p, vec2(1.0, 0.0)) - p.eye, axis), dot(on_plane(p, vec2(0.0, 1.0)) - p.eye, axis)));
         float octave = log2(max(slope_along * u_spacing, 1e-12)), part = fract(octave), pitch = exp2(octave - part);
@@ -118,7 +137,7 @@ float inked(surface_point p, vec2 gradient, float blur, float shadow)
         reach = beside * mix(stripe(along / pitch), stripe(0.5 * along / pitch), part);
         reach_slope = beside * slope_along / pitch * (2.0 - part); /* at the middle of a stroke's length */
     }
-    float width = max(length(vec3(slope, reach_slope, 0.5 * blur)), 1e-4);
+    float width = max(length(vec3(border, reach_slope, 0.5 * shadow.w)), 1e-4);
     return clamp((reach - beyond) / width + 0.5, 0.0, 1.0);
 }
 
@@ -132,10 +151,11 @@ vec4 surface_colour(surface_point p)
     surroundings around = surroundings_of(p, false);
     surface_point right = p, above = p;
     arrives = around.light;
-    p.normal = around.normal;
+    calm_form calm = calm_form_of(p);
+    p.normal = calm.normal;
     p.albedo.rgb = lifted(around.albedo);
-    right.normal = normalize(around.normal + around.across);
-    above.normal = normalize(around.normal + around.up);
+    right.normal = normalize(calm.normal + calm.across);
+    above.normal = normalize(calm.normal + calm.up);
     float spot = highlight(p, 40.0), spot_slope = length(vec2(highlight(right, 40.0), highlight(above, 40.0)) - spot);
 #else
     float spot = highlight(p, 40.0), spot_slope = fwidth(spot);
@@ -146,16 +166,22 @@ vec4 surface_colour(surface_point p)
 #else
     float first = 1.0, lit = arrives;
 #endif
-    float light = tone_light(p, first), dark = tone_light(p, 0.0);
 #ifdef SHADED_LATER
-    vec2 others = vec2(tone_light(right, first), tone_light(above, first));
-    vec2 dark_others = vec2(tone_light(right, 0.0), tone_light(above, 0.0));
-    float slope = length(others - light), dark_slope = length(dark_others - dark);
+    float sky = 1.0 - calm.deep.x, sky_right = sky - calm.deep.y, sky_above = sky - calm.deep.z;
+    float light = tone_light(p, first, sky), dark = tone_light(p, 0.0, sky), back = reflected_light(p, sky);
+    float slope = length(vec2(tone_light(right, first, sky_right), tone_light(above, first, sky_above)) - light);
+    float dark_slope = length(vec2(tone_light(right, 0.0, sky_right), tone_light(above, 0.0, sky_above)) - dark);
+    float back_slope = length(vec2(reflected_light(right, sky_right), reflected_light(above, sky_above)) - back);
 #else
-    float slope = fwidth(light), dark_slope = fwidth(dark);
+    float sky = sky_fraction(p);
+    float light = tone_light(p, first, sky), dark = tone_light(p, 0.0, sky), back = reflected_light(p, sky);
+    float slope = fwidth(light), dark_slope = fwidth(dark), back_slope = fwidth(back);
 #endif
     float tone = u_bands > 1 ? mix(banded(dark, dark_slope), banded(light, slope), lit) : 1.0;
     vec3 brightness = mix(u_shadow, u_light, tone) * mix(u_shade.rgb, u_bright.rgb, tone);
+    /* A step inside the darkest tone. */
+    float returned = clamp((back - RETURNS) / max(u_softness * back_slope, 1e-7) + 0.5, 0.0, 1.0);
+    brightness *= 1.0 + u_reflected * returned * clamp(1.0 - tone * float(u_bands - 1), 0.0, 1.0);
     float grey = dot(p.albedo.rgb, vec3(0.2126, 0.7152, 0.0722));
     vec3 colour = max(mix(vec3(grey), p.albedo.rgb, u_saturation), vec3(0.0)) * brightness;
     colour = light_shown_as(min(legible(shown(min(colour, vec3(1.0)))), vec3(1.0)));
@@ -166,14 +192,20 @@ vec4 surface_colour(surface_point p)
     colour = shown(min(colour, vec3(1.0)));
     if (u_blacks > 0.0 || u_feather > 0.0) {
         vec3 towards = towards_light(0, p.eye);
+        float dark = darkness(p);
+        vec4 shadow = vec4(0.0);
 #ifdef SHADED_LATER
-        vec2 gradient = 0.5 * vec2(dot(right.normal - p.normal, towards), dot(above.normal - p.normal, towards));
+        vec2 gradient = 0.5 * vec2(dot(calm.across, towards), dot(calm.up, towards));
+        shadow.x = spotted(calm.deep.x, dark);
+        shadow.yz = spotted(calm.deep.x, 0.0) > 0.0 ? 2.0 * u_spotted * calm.deep.yz : vec2(0.0);
+        shadow.w = 0.3 * u_spotted * fwidth(dark);
 #else
         float turned = dot(p.normal, towards);
         vec2 gradient = 0.5 * vec2(dFdx(turned), dFdy(turned));
+        shadow.x = spotted(1.0 - sky_fraction(p), dark);
+        shadow.w = fwidth(shadow.x);
 #endif
-        float deep = u_spotted > 0.0 ? spotted(p) : 0.0;
-        colour = mix(colour, u_ink.rgb, u_ink.a * inked(p, gradient, fwidth(deep), deep));
+        colour = mix(colour, u_ink.rgb, u_ink.a * inked(p, gradient, shadow));
     }
     return vec4(colour, 1.0);
 }

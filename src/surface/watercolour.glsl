@@ -29,10 +29,10 @@ const float DRIFT = 0.3; /* how far pigments part where the water flowed, for al
 /* How much pigment lies here for each that does without unevenness: the water ran, and where more of it came back into what was drying it pushed pigment before it, to a ragged border. */
 float uneven_at(vec2 pixel, float flow)
 {
-    const float WIDE = 2.4, FINE = 0.17, BACK = 0.12, RIM = 1.6, RAGGED = 0.16, MOVED = 0.154; /* of flow_size; of the noise; what all of it loses in the mean */
+    const float WIDE = 2.4, FINE = 0.26, BACK = 0.12, RIM = 0.9, RAGGED = 0.07, MOVED = 0.112; /* of flow_size; of the noise; what all of it loses in the mean */
     vec2 at = (pixel - u_anchor) / u_flow_size;
     float back = plane_noise(at / WIDE, 71u).x + RAGGED * plane_noise(at / FINE, 72u).x + 0.4 * RAGGED * plane_noise(2.7 * at / FINE, 73u).x - BACK;
-    float run = MOVED + (back > 0.0 ? RIM * exp(-back / 0.03) - 0.6 * (1.0 - exp(-back / 0.12)) : 0.0);
+    float run = MOVED + (back > 0.0 ? RIM * exp(-back / 0.055) - 0.6 * (1.0 - exp(-back / 0.12)) : 0.0);
     return max(1.0 + u_flow * (flow + run), 0.0);
 }
 
@@ -56,13 +56,13 @@ vec4 surface_colour(surface_point p)
     const int ROUND = 12;
     float shade = 1.0 - p.albedo.a, inside = 0.0;
     for (int i = 0; i < 2 * ROUND; i++) {
-        float angle = 6.2831853 * (float(i) + 0.5) / float(ROUND), radius = i < ROUND ? u_pool : 0.5 * u_pool;
+        float angle = 6.2831853 * (float(i) + 0.5) / float(ROUND), radius = i < ROUND ? 2.4 * u_pool : u_pool;
         ivec2 pixel = ivec2(clamp(floor(gl_FragCoord.xy + radius * vec2(cos(angle), sin(angle))), vec2(0.0), u_size - 1.0));
         float there = texelFetch(t_id, pixel, 0).r == p.part ? 1.0 - texelFetch(t_albedo, pixel, 0).a : 0.0;
         inside += min(there / max(shade, 1e-3), 1.0) / float(2 * ROUND);
     }
-    float rim = 1.0 - smoothstep(0.5, 0.95, inside);
     vec2 flow = flow_at(gl_FragCoord.xy, u_flow_size, 35u);
+    float rim = pow(1.0 - smoothstep(0.45, 1.0, inside), 1.6) * clamp(0.8 + 1.6 * flow_at(gl_FragCoord.xy, 0.4 * u_flow_size, 37u).x, 0.2, 1.5); /* more of it stood here, less there */
     float pigment = (1.0 + 0.5 * u_pooling * rim) * uneven_at(gl_FragCoord.xy, flow.x) * settled_at(gl_FragCoord.xy);
     vec3 parted = 1.0 + DRIFT * u_flow * flow.y * vec3(1.0, 0.1, -1.0);
     float most = min(shade * pigment, 1.0);

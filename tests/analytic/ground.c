@@ -671,7 +671,6 @@ static double mean_dark(const shot *s, const signed char *truth, dvec light, dou
     return count ? sum / count / 255 : NAN;
 }
 
-/* What is thrown from higher up is paler; what stands there throws all of it. */
 /* Of watercolour they are washes: as dark as any other inside, with a rim where they end, as wide as it is told to be.
  */
 static void cast_shadows_are_washed(void)
@@ -712,6 +711,46 @@ static void cast_shadows_are_washed(void)
     shape_release(&model);
 }
 
+/* Soft ones are drawn by the strokes and dots of mediums that draw on the ground, where rays say and as dark. */
+static void soft_shadows_are_drawn(void)
+{
+    static const char *const media[] = {"{\"technique\":\"pencil\",\"ink\":\"#000000\"}",
+                                        "{\"technique\":\"stick\",\"ink\":\"#000000\"}",
+                                        "{\"technique\":\"stipple\",\"ink\":\"#000000\"}",
+                                        "{\"technique\":\"dots\",\"coordinates\":\"screen\",\"ink\":\"#000000\"}"};
+    const dvec               light = dvec_of(-0.7, 0.75, 0.3);
+    shape                    model = {0};
+    shape_box(&model, "block", dvec_of(cast_low[0], cast_low[1], cast_low[2]),
+              dvec_of(cast_high[0], cast_high[1], cast_high[2]));
+    for (size_t m = 0; m < sizeof media / sizeof *media; m++) {
+        shot   s;
+        double inside = 0, outside = 0, squares = 0;
+        int    counts[2] = {0};
+        if (!shoot_cast_with(&s, &model, "\"ground_strength\":0.5,\"shadows\":true,\"shadow_softness\":3", media[m],
+                             false))
+            continue;
+        signed char *truth = cast_truth(&s, light);
+        for (int i = 0; i < CAST_SIDE * CAST_SIDE; i++) {
+            if (truth[i] == UNKNOWN || is_near_border(truth, i, 8))
+                continue;
+            double dark = 1 - picture_shown(s.picture[4 * i]);
+            *(truth[i] ? &inside : &outside) += dark;
+            squares += truth[i] ? dark * dark : 0;
+            counts[truth[i] ? 1 : 0]++;
+        }
+        check_at_least("ground", counts[1], 700, "pixels inside the shadow that %s draws", media[m]);
+        double mean = inside / fmax(counts[1], 1);
+        check_near("ground", mean, 0.45, 0.12, "  how dark it is");
+        check_at_most("ground", outside / fmax(counts[0], 1), 0.002, "  and outside of it");
+        check_at_least("ground", sqrt(fmax(squares / fmax(counts[1], 1) - mean * mean, 0)), 0.05,
+                       "  deviation within it: marks, no tone");
+        free(truth);
+        shot_release(&s);
+    }
+    shape_release(&model);
+}
+
+/* What is thrown from higher up is paler; what stands there throws all of it. */
 static void cast_shadows_fade(void)
 {
     const dvec light = dvec_of(-0.7, 0.75, 0.3);
@@ -823,6 +862,7 @@ int main(int argc, char **argv)
         {"corners", calm_shadows_keep_corners},
         {"fade", cast_shadows_fade},
         {"washed", cast_shadows_are_washed},
+        {"soft", soft_shadows_are_drawn},
         {"feet", dark_tone_lies_at_feet},
     };
     int status = check_main(argc, argv, "ground", cases, sizeof cases / sizeof *cases);

@@ -744,13 +744,57 @@ static void sides(void)
     shape_release(&model);
 }
 
+/* The mean ink of a dark square face that has room for so many distances of lines; `black`: 0, or from where it is
+ * filled. */
+static double ink_of_face(double distances, double black)
+{
+    enum { RIM = 8, FACE = 214 /* pixels */ };
+    const double TICK = 0.6; /* of its length, room of a line from edge to edge */
+    char         look[500];
+    shape        model = {0};
+    shot         s;
+    double       ink = 0;
+    int          inside = 0;
+    shot_view    view = {.width = SIDE, .height = SIDE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .orthographic = true};
+    snprintf(look, sizeof look,
+             "{\"version\":2,\"name\":\"face\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{"
+             "\"technique\":\"lines\",\"scale\":%.9g,\"series\":2,\"crossed\":0.5,\"ink\":\"#000000\","
+             "\"shadow\":0.35,\"light\":0.35,\"texture\":0,\"room\":4,\"black\":%.9g}}]}",
+             0.75 * FACE * TICK / distances, black);
+    shape_quad(&model, "face", 1, 0);
+    bool good = shot_of_shape(&s, &model, "face.glb", look, NULL, &view);
+    for (int y = RIM; good && y < SIDE - RIM; y++)
+        for (int x = RIM; x < SIDE - RIM; x++)
+            if (s.id[y * SIDE + x] == 1 && other_part_near(&s, x, y) == 9) {
+                ink += halftone_ink(&s, x, y);
+                inside++;
+            }
+    if (good)
+        check_near("EX-12", sqrt(inside), FACE - 6, 4, "side of the face within its rim, pixels");
+    if (good)
+        shot_release(&s);
+    shape_release(&model);
+    return good ? ink / inside : NAN;
+}
+
+/* A face that has no room for lines is black; one that has none but for further sets, which need more, is not. */
+static void room(void)
+{
+    check_that("EX-12", ink_of_face(1.2, 0.6) > 0.95, "a dark face without room is filled");
+    for (int k = 0; k < 3; k++)
+        check_near("EX-12", ink_of_face(4.5 + k, 0.6), ink_of_face(4.5 + k, 0), 0.02,
+                   "ink of a face that has room for %.1f lines", 4.5 + k);
+}
+
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {
-        {"light", light},     {"vectors", vectors},       {"white", white},           {"distance", distance},
-        {"darkest", darkest}, {"uncut", uncut},           {"whole", whole},           {"around", around},
-        {"joints", joints},   {"near-plane", near_plane}, {"indication", indication}, {"rims", rims},
-        {"sides", sides}};
+    static const check_case cases[] = {{"light", light},           {"vectors", vectors},
+                                       {"white", white},           {"distance", distance},
+                                       {"darkest", darkest},       {"uncut", uncut},
+                                       {"whole", whole},           {"around", around},
+                                       {"joints", joints},         {"near-plane", near_plane},
+                                       {"indication", indication}, {"rims", rims},
+                                       {"sides", sides},           {"room", room}};
     halftone_begin_kept("marks");
     int status = check_main(argc, argv, "marks", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -501,6 +501,69 @@ static void shade_tints_the_dark(void)
     shot_release(&s);
 }
 
+/* What looks opposite the light is a step lighter inside the darkest tone, and nowhere else. */
+static void shade_has_reflected_light(void)
+{
+    static const double back[3] = {-0.911, -0.41, 0.057}; /* of (-0.8, -0.6 * 0.6, 0.05) */
+    for (int smoothing = 0; smoothing < 2; smoothing++) {
+        uint32_t colours[64];
+        int      pixels[64], wrong = 0, returned = 0;
+        char     surface[240];
+        shot     s;
+        snprintf(surface, sizeof surface,
+                 "{\"technique\":\"toon\",\"bands\":2,\"softness\":0,\"highlight\":0,\"shadow\":0.3,\"reflected\":0.5,"
+                 "\"smoothing\":\"%dpx\"}",
+                 8 * smoothing);
+        if (take_ball(&s, surface_look(surface, "0.8,0.6,0", 0), NULL)) {
+            check_near("E12", colours_of(&s, colours, pixels, 64), 3, 0, "tones of two bands with reflected light");
+            for (int i = 0; i < 256 * 256; i++) {
+                double turned = 0, level = picture_linear(s.picture[4 * i]);
+                for (int k = 0; k < 3; k++)
+                    turned += back[k] * (double)s.normal[i][k];
+                if (isinf(s.depth[i]) || fabs(turned - 0.52) < 0.03)
+                    continue;
+                bool lighter = level > 0.36 && level < 0.6;
+                returned += lighter;
+                wrong += lighter != (turned > 0.52);
+            }
+            check_at_least("E12", returned, 1000, "  pixels of it");
+            check_at_most("E12", wrong, 0, "  in another place than looks there");
+        }
+        shot_release(&s);
+    }
+}
+
+/* A picture's soft glow, as baked shadows are: cartoons have flat colours with borders. A mean of what is alike alone
+ * left 3144 pixels of it. */
+static void textures_become_flat(void)
+{
+    enum { SIDE = 256 };
+    shape s = {0};
+    shot  drawing;
+    int   between = 0;
+    shape_quad(&s, "wall", 1, 0);
+    s.parts[0].texture_size = SIDE;
+    s.parts[0].texture = check_alloc(SIDE * SIDE, 4);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double  from = hypot(i % SIDE - 127.5, i / SIDE - 127.5) - 60; /* a blue disc, its glow 14 wide */
+        uint8_t glow = (uint8_t)(from < 0 ? 0 : from < 14 ? 150 + 100 * from / 14 : 250);
+        memcpy(&s.parts[0].texture[4 * i],
+               from < 0 ? (uint8_t[]){40, 90, 200, 255} : (uint8_t[]){glow, glow, glow, 255}, 4);
+    }
+    const char *look = surface_look("{\"technique\":\"toon\",\"bands\":1,\"light\":1,\"saturation\":1,\"highlight\":0,"
+                                    "\"smoothing\":\"60px\"}",
+                                    "0,0,1", 0);
+    if (shot_of_shape(&drawing, &s, "glow.glb", look, NULL, &front))
+        for (int y = 20; y < 236; y++)
+            for (int x = 20; x < 236; x++) {
+                int red = drawing.picture[4 * (y * 256 + x)];
+                between += red > 60 && red < 240;
+            }
+    shot_release(&drawing);
+    shape_release(&s);
+    check_at_most("E12", between, 2300, "pixels of a glow that are neither of the colours it joins");
+}
+
 /* --- An inker's blacks ------------------------------------------------------------------------------------ */
 
 static const double light_of_blacks[3] = {0.8, 0.6, 0};
@@ -713,36 +776,6 @@ static void clefts_are_black(void)
             check_at_most("S1", outside, 0, "  beside it");
             shot_release(&drawing);
         }
-        shape_release(&s);
-    }
-}
-
-/* A broad pen's strokes over a wall: in full light some of the paper shows between them, without any light hardly, and
- * the page changes across them and not along. */
-static void broad_strokes_leave_paper(void)
-{
-    for (int dark = 0; dark < 2; dark++) {
-        shape  s = {0};
-        shot   wall;
-        double paper = 0, along = 0, across = 0;
-        shape_quad(&s, "wall", 20, 0);
-        s.parts[0].colour[0] = 0.1f;
-        const char *look =
-            surface_look("{\"technique\":\"lines\",\"shadow\":1,\"light\":4,\"paper_tint\":1,\"paper_light\":0,"
-                         "\"paper_strokes\":\"10px\"}",
-                         dark ? "0,0,-1" : "0,0,1", 0);
-        if (shot_of_shape(&wall, &s, "pen.glb", look, NULL, &front))
-            for (int y = 8; y < 248; y++)
-                for (int x = 8; x < 248; x++) {
-                    int here = wall.picture[4 * (y * 256 + x)];
-                    paper += here > 250;
-                    along += abs(here - wall.picture[4 * ((y - 3) * 256 + x + 4)]); /* 37 degrees; rows run downwards */
-                    across += abs(here - wall.picture[4 * ((y + 4) * 256 + x + 3)]);
-                }
-        check_near("pen", paper / (240 * 240), dark ? 0.01 : 0.25, dark ? 0.01 : 0.15, "share of paper %s",
-                   dark ? "in the dark" : "in full light");
-        check_at_most("pen", along / across, 0.5, "  changes along strokes beside those across");
-        shot_release(&wall);
         shape_release(&s);
     }
 }
@@ -1120,13 +1153,14 @@ int main(int argc, char **argv)
         {"shade", shade_tints_the_dark},
         {"hidden", lines_are_hidden_by_what_lies_close},
         {"join", lines_join_where_it_is_dark},
+        {"reflected", shade_has_reflected_light},
+        {"textures-flat", textures_become_flat},
         {"blacks", blacks_lie_away_from_the_light},
         {"feathers", feathers_taper},
         {"feathers-cross", feathers_cross_the_border},
         {"walls", walls_are_not_feathered},
         {"dark-things", dark_things_are_blacker},
         {"clefts", clefts_are_black},
-        {"broad-pen", broad_strokes_leave_paper},
         {"pigment", pigment_takes_light},
         {"pools", pigment_pools},
         {"flows", pigment_flows},

@@ -2,6 +2,7 @@
 #include "stroke_shapes.h"
 
 #include <ctype.h>
+#include <time.h>
 
 #include "base/vector3.h"
 #include "draft/cylinders.h"
@@ -272,6 +273,31 @@ static void test_none(void **state)
     }
     add_bar(s, (const double(*)[2])outline, count, 10);
     assert_none("an oval bar", s);
+}
+
+static double seconds_for_ball(uint32_t columns)
+{
+    double least = INFINITY;
+    for (int turn = 0; turn < 2; turn++) {
+        lmn_scene      *s = stroke_scene_begin();
+        struct timespec from, to;
+        add_ball(s, 1, 2, 3, 6, columns, columns / 2);
+        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &from);
+        assert_none("a ball", s);
+        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &to);
+        least = fmin(least, (double)(to.tv_sec - from.tv_sec) + (double)(to.tv_nsec - from.tv_nsec) * 1e-9);
+    }
+    return least;
+}
+
+/* A wide band of a ball lies on any cylinder around it, as far as the first growth asks; four times the faces must not
+ * cost sixteen times as much. */
+static void test_growth(void **state)
+{
+    (void)state;
+    double few = seconds_for_ball(48), many = seconds_for_ball(96);
+    printf("a ball of 48 columns %.3f s, of 96 %.3f s\n", few, many);
+    assert_true(many < 8 * few);
 }
 
 /* --- cones ---------------------------------------------------------------------------------------------- */
@@ -677,7 +703,7 @@ int main(void)
         cmocka_unit_test(test_drums),    cmocka_unit_test(test_sleeve), cmocka_unit_test(test_none),
         cmocka_unit_test(test_torus),    cmocka_unit_test(test_cones),  cmocka_unit_test(test_spindle),
         cmocka_unit_test(test_no_cones), cmocka_unit_test(test_solid),  cmocka_unit_test(test_pitch),
-        cmocka_unit_test(test_pump),
+        cmocka_unit_test(test_pump),     cmocka_unit_test(test_growth),
 #ifdef LIMNER_HAVE_STEP
         cmocka_unit_test(test_step),
 #endif

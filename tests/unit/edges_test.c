@@ -152,13 +152,13 @@ static void convex_edges_of_bodies_are_candidates(void **state)
     (void)state;
     for (int i = 1; i <= 5; i++) {
         assert_int_equal(hinge(-0.1 * i, 1, 0, true), EDGE_CANDIDATE);
-        assert_int_equal(hinge(0.1 * i, 1, 0, true), 0);
+        assert_int_equal(hinge(0.1 * i, 1, 0, true), EDGE_CANDIDATE | EDGE_HOLLOW);
         assert_int_equal(hinge(-0.1 * i, 1, 0, false), EDGE_CANDIDATE); /* a sheet has outlines either way */
         assert_int_equal(hinge(0.1 * i, 1, 0, false), EDGE_CANDIDATE);
     }
     for (int i = -12; i <= 12; i += 4) { /* any size */
         assert_int_equal(hinge(-0.1, pow(10, i), 0, true), EDGE_CANDIDATE);
-        assert_int_equal(hinge(0.1, pow(10, i), 0, true), 0);
+        assert_int_equal(hinge(0.1, pow(10, i), 0, true), EDGE_CANDIDATE | EDGE_HOLLOW);
         assert_int_equal(hinge(0, pow(10, i), 0, true), 0);
     }
 }
@@ -384,18 +384,21 @@ static void nothing_that_is_an_outline_was_dropped(void **state)
     for (uint32_t view = 0; view < 1000; view++) {
         double       z = 2 * hashed(3 * view) - 1, a = 2 * field_pi * hashed(3 * view + 1), s = sqrt(1 - z * z);
         const double d[3] = {s * cos(a), s * sin(a), z};
-        uint32_t     wanted = 0, got = 0;
+        uint32_t     wanted = 0, got = 0, hollow = 0, always_hidden = 0;
         for (uint32_t h = 0; h < p.index_count; h++) {
             vec3 m = e.normals[h / 3], n = e.normals[opposite[h] / 3];
-            wanted += h < opposite[h] && is_convex(&p, h, opposite[h]) &&
-                      (m.x * d[0] + m.y * d[1] + m.z * d[2] > 0) != (n.x * d[0] + n.y * d[1] + n.z * d[2] > 0);
+            bool outline = (m.x * d[0] + m.y * d[1] + m.z * d[2] > 0) != (n.x * d[0] + n.y * d[1] + n.z * d[2] > 0);
+            wanted += h < opposite[h] && outline && is_convex(&p, h, opposite[h]);
+            hollow += h < opposite[h] && outline && !is_convex(&p, h, opposite[h]);
         }
         for (uint32_t i = 0; i < e.edge_count; i++) {
             vec3 m = e.normals[e.edges[i].face[0]], n = e.normals[e.edges[i].face[1]];
-            got += e.edges[i].flags & EDGE_CANDIDATE &&
-                   (m.x * d[0] + m.y * d[1] + m.z * d[2] > 0) != (n.x * d[0] + n.y * d[1] + n.z * d[2] > 0);
+            bool outline = (m.x * d[0] + m.y * d[1] + m.z * d[2] > 0) != (n.x * d[0] + n.y * d[1] + n.z * d[2] > 0);
+            got += outline && e.edges[i].flags & EDGE_CANDIDATE && !(e.edges[i].flags & EDGE_HOLLOW);
+            always_hidden += outline && e.edges[i].flags & EDGE_HOLLOW;
         }
         assert_int_equal(got, wanted);
+        assert_int_equal(always_hidden, hollow);
         outlines += wanted;
     }
     assert_true(outlines > 1000 * 20);

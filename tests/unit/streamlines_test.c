@@ -139,6 +139,41 @@ static void lines_keep_their_distance(void **state)
     check_spacing("ellipsoid", with_normals(ball(24, 0.3, axes)), 0.08, 0.45);
 }
 
+/* Two balls that a short, oval neck joins askew. */
+static place3 neck_at(double u, double v)
+{
+    double angle = 2 * field_pi * u, along = 4 * v - 2, ball = fabs(along) - 1.05,
+           r = sqrt(fmax(1 - fmin(ball * ball, 1), 0.16)), wide = 1 + 0.5 * exp(-9 * along * along);
+    return (place3){wide * r * cos(angle), r * sin(angle) / wide, along + 0.3 * r * cos(angle)};
+}
+
+/* Where field and form leave wide gaps short lines fill them: neighbours that swelled to fill them would be bars. */
+static double share_of_gaps(double apart)
+{
+    shape  s = with_normals(grid_surface(neck_at, 64, 64, true, false, 0.3));
+    marks  m = make_lines(&s, apart, 4, 1);
+    size_t wide = 0, count = 0;
+    for (size_t i = 0; i < m.line_count; i += 2)
+        for (int side = -1; side <= 1; side += 2) {
+            double gap = lies_beyond(&m.lines[i]) ? INFINITY : gap_beside(&m, i, side, 3.5 * apart);
+            count += isfinite(gap);
+            wide += isfinite(gap) && gap > 2.3 * apart;
+        }
+    printf("neck: %zu of %zu gaps beside lines are wide\n", wide, count);
+    surface_marks_release(&m);
+    release_shape(&s);
+    return (double)wide / (double)count;
+}
+
+static void short_lines_fill_gaps(void **state)
+{
+    (void)state;
+    double share = 0;
+    for (int k = 0; k < 3; k++)
+        share += share_of_gaps(0.09 + 0.03 * k) / 3;
+    assert_true(share < 0.018);
+}
+
 /* --- crossings ------------------------------------------------------------------------------------------ */
 
 /* On a torus, by both of its angles. */
@@ -854,6 +889,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_keep_their_distance),
+        cmocka_unit_test(short_lines_fill_gaps),
         cmocka_unit_test(lines_of_a_set_never_cross),
         cmocka_unit_test(lines_go_on_from_what_bends_to_what_is_flat),
         cmocka_unit_test(narrow_faces_have_lines),

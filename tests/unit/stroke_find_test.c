@@ -39,6 +39,49 @@ static void cube_has_six_nine_twelve(void **state)
     shot_release(&shot);
 }
 
+/* A square plate with a round hole through it, along z. */
+static void add_bored_plate(lmn_scene *s, double radius)
+{
+    enum { SIDES = 32, RINGS = 4 };
+    vec3     positions[SIDES * RINGS];
+    uint32_t corners[SIDES * RINGS * 6], count = 0;
+    for (uint32_t k = 0; k < SIDES; k++) {
+        double c = cos(2 * stroke_pi * k / SIDES), d = sin(2 * stroke_pi * k / SIDES), out = 2 / fmax(fabs(c), fabs(d));
+        for (uint32_t ring = 0; ring < RINGS; ring++) { /* outside below and above, inside above and below */
+            double far = ring < 2 ? out : radius;
+            positions[ring * SIDES + k] = (vec3){(float)(far * c), (float)(far * d), ring == 1 || ring == 2 ? 1 : 0};
+        }
+    }
+    for (uint32_t ring = 0; ring < RINGS; ring++)
+        for (uint32_t k = 0; k < SIDES; k++) {
+            uint32_t a = ring * SIDES + k, b = ring * SIDES + (k + 1) % SIDES, up = (ring + 1) % RINGS * SIDES;
+            uint32_t quad[6] = {a, b, up + b % SIDES, a, up + b % SIDES, up + a % SIDES};
+            memcpy(corners + count, quad, sizeof quad);
+            count += 6;
+        }
+    add_part(s, positions, SIDES * RINGS, corners, count);
+}
+
+/* Seen from the side and a little from above, both sides of the bore are hidden lines from face to face, and hang
+ * together along its far rim below. */
+static void bores_have_hidden_sides(void **state)
+{
+    (void)state;
+    for (int hidden = 0; hidden < 2; hidden++) {
+        lmn_scene     *s = stroke_scene_begin();
+        stroke_options w = all_lines();
+        double         length;
+        w.hidden = hidden != 0;
+        add_bored_plate(s, 0.75);
+        stroke_shot shot = shoot(s, look_along(0.001, 1, 0.002, origin, 20, 4, true, 400, 400), w);
+        assert_int_equal(count_strokes(&shot.set, STROKE_CONTOUR, 1, &length), hidden);
+        assert_true(!hidden || fabs(length - (50 + 75 + 50)) < 1);
+        assert_true(count_strokes(&shot.set, STROKE_CONTOUR, 0, NULL) > 0);
+        assert_int_equal(shot.check.wrong, 0);
+        shot_release(&shot);
+    }
+}
+
 /* A rod below k plates: each stretch has as many surfaces in front as there are plates over it. */
 static void plates_are_counted(void **state)
 {
@@ -742,6 +785,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cube_has_six_nine_twelve),
+        cmocka_unit_test(bores_have_hidden_sides),
         cmocka_unit_test(plates_are_counted),
         cmocka_unit_test(rims_hide_where_they_are),
         cmocka_unit_test(shells_that_coincide_are_one),

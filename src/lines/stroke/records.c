@@ -15,11 +15,17 @@ static void put_vector(float *out, vec3 v, float fourth, float sign)
     out[3] = fourth;
 }
 
+/* Edges of solids lie on what is no mesh: their faces tell less than they do. Of meshes faces say all. */
+static bool is_hollow_of_solid(const edge_mesh *m, const mesh_edge *e)
+{
+    return m->solid && (e->flags & EDGE_HOLLOW);
+}
+
 static void put_edge(float *out, const record_bends *bends, uint32_t edge)
 {
     const edge_mesh *m = bends->m;
     const mesh_edge *e = &m->edges[edge];
-    bool pair = e->face[1] != EDGE_NO_FACE && !(e->flags & EDGE_HOLLOW), closed = m->closed[m->pieces[e->face[0]]];
+    bool pair = e->face[1] != EDGE_NO_FACE && !is_hollow_of_solid(m, e), closed = m->closed[m->pieces[e->face[0]]];
     int  bits = (e->flags & EDGE_BORDER ? RECORD_BORDER : 0) | (e->flags & EDGE_CREASE ? RECORD_CREASE : 0) |
                (e->flags & EDGE_MATERIAL ? RECORD_MATERIAL : 0) | (pair ? RECORD_PAIR : 0) |
                (closed ? RECORD_CLOSED : 0) | (e->flags & EDGE_ROUNDED ? RECORD_ROUNDED : 0) |
@@ -45,6 +51,8 @@ static bool is_ever_line(const edge_mesh *m, const mesh_edge *e)
     const float turned = 1e-10f; /* squared, radians */
     if (is_always_line(e) || (e->flags & (EDGE_QUIET | EDGE_TWISTED)) || e->face[1] == EDGE_NO_FACE)
         return true;
+    if (!m->solid && (e->flags & EDGE_HOLLOW)) /* always hidden, and what is hidden has exact lines alone */
+        return false;
     vec3  n = m->normals[e->face[0]], o = m->normals[e->face[1]];
     float x = n.x - o.x, y = n.y - o.y, z = n.z - o.z;
     return x * x + y * y + z * z > turned;
@@ -64,7 +72,7 @@ double strokes_gentlest_turn(const edge_mesh *m)
     double       least = 3.14159265358979323846;
     for (uint32_t i = 0; i < m->edge_count && least > 0; i++) {
         const mesh_edge *e = &m->edges[i];
-        if (e->face[1] == EDGE_NO_FACE || (e->flags & (EDGE_HOLLOW | EDGE_BORDER | EDGE_ROUNDED)))
+        if (e->face[1] == EDGE_NO_FACE || is_hollow_of_solid(m, e) || (e->flags & (EDGE_BORDER | EDGE_ROUNDED)))
             continue;
         vec3   n = m->normals[e->face[0]], o = m->normals[e->face[1]];
         double cosine = (e->flags & EDGE_TWISTED ? -1 : 1) * (double)(n.x * o.x + n.y * o.y + n.z * o.z);

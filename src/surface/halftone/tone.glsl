@@ -59,7 +59,17 @@ float focused(surface_point p, float darkness)
 #endif
 }
 
+/* Shade is kept transparent where a medium has all its tones: so much of the first light comes back into its shadows from what lies around, so that what is painted there is still told. Clefts
+ * get none: occlusion takes from all light. */
+const float REFLECTED = 0.3;
+
 float light_of(surface_point p)
 {
-    return p.unlit ? 1.0 : dot(diffuse_light(p), LUMINANCE);
+    if (p.unlit)
+        return 1.0;
+#ifdef RANGED
+    return dot(diffuse_light_of(p, mix(REFLECTED, 1.0, unshadowed(p))), LUMINANCE);
+#else
+    return dot(diffuse_light(p), LUMINANCE);
+#endif
 }
