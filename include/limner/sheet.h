@@ -26,7 +26,7 @@ typedef struct lmn_sheet_desc {
     const char *views; /* "front,top,right,iso": a sheet of views in parallel projection, at one scale, aligned; NULL:
                           the drawing's own view */
     lmn_angle   angle;
-    const char *title;   /* in the title block of a frame, below the drawing without one; NULL: none */
+    const char *title;   /* in a frame's title block, NULL: the file's name; without a frame below, NULL: none */
     bool        frame;   /* a frame and a title block with the scale */
     bool        plotter; /* lines alone, by pen, in an order that makes the pen's way short */
     bool

@@ -71,6 +71,38 @@ static const char *read_view(const reader *r, const char *at, lmn_view *out)
     return NULL;
 }
 
+/* --- what lies beside the model --------------------------------------------------------------------------- */
+
+/* A plane of a section that cuts nothing: the drawing would lack what it was asked for. */
+static lmn_status check_plane(const reader *r, int axis, double place)
+{
+    double low = side(r, axis, false), high = side(r, axis, true);
+    if (box3_is_empty(r->bounds) || (place > low && place < high))
+        return LMN_OK;
+    error_set(r->error, LMN_USAGE, "section '%.*s': nothing is cut by the plane %c = %g",
+              (int)(r->end - r->at > 60 ? 60 : r->end - r->at), r->at, 'x' + axis, place);
+    error_hint(r->error, "the model reaches from %g to %g along %c; percentages of that are places, too (50%%)", low,
+               high, 'x' + axis);
+    return LMN_USAGE;
+}
+
+/* The circle of a detail in which there is nothing: the box of the model, seen along the view, is farther away. */
+static lmn_status check_circle(const reader *r, const draft_extra *e)
+{
+    double away = 0;
+    for (int k = 0; k < 3; k++) {
+        double beside = fmax(fmax(side(r, k, false) - e->at[k], e->at[k] - side(r, k, true)), 0);
+        away = k == axis_of(e->axes[2]) ? away : hypot(away, beside);
+    }
+    if (box3_is_empty(r->bounds) || away < e->radius)
+        return LMN_OK;
+    error_set(r->error, LMN_USAGE, "detail '%.*s': nothing of the model lies in the circle",
+              (int)(r->end - r->at > 60 ? 60 : r->end - r->at), r->at);
+    error_hint(r->error, "the model reaches x from %g to %g, y from %g to %g, z from %g to %g", side(r, 0, false),
+               side(r, 0, true), side(r, 1, false), side(r, 1, true), side(r, 2, false), side(r, 2, true));
+    return LMN_USAGE;
+}
+
 /* --- sections ------------------------------------------------------------------------------------------- */
 
 /* What lies towards the eye of each depth, between the turns beside it. */
@@ -109,8 +141,10 @@ static lmn_status parse_revolved(draft_extra *e, const reader *r, const char *at
     e->turns[0] = (side(r, across, false) + side(r, across, true)) / 2;
     if (at < r->end && *at == ',')
         at = read_place(r, at + 1, across, &e->turns[0]);
+    if (at != r->end)
+        return wrong(r, "behind revolved stands one place");
     snprintf(e->cut, sizeof e->cut, "%s%c=%.17g", e->axes[0][across] > 0 ? "" : "-", 'x' + across, e->turns[0]);
-    return at == r->end ? LMN_OK : wrong(r, "behind revolved stands one place");
+    return check_plane(r, across, e->turns[0]);
 }
 
 static lmn_status parse_section(draft_extra *e, reader *r, char up)
@@ -144,6 +178,9 @@ static lmn_status parse_section(draft_extra *e, reader *r, char up)
     for (size_t i = 0; i < count; i++)
         *(i % 2 ? &e->turns[i / 2] : &e->depths[i / 2]) = values[i];
     e->depth_count = (count + 1) / 2;
+    for (size_t i = 0; i < count; i++)
+        if (check_plane(r, i % 2 ? across : depth, values[i]) != LMN_OK)
+            return LMN_USAGE;
     for (size_t i = 1; i + 1 < e->depth_count; i++)
         if ((e->turns[i] - e->turns[i - 1]) * e->axes[0][across] <= 0)
             return wrong(r, "its turns go from left to right");
@@ -168,12 +205,12 @@ static lmn_status parse_detail(draft_extra *e, reader *r, char up)
     if (!at || !(e->radius > 0) || !isfinite(e->radius))
         return wrong(r, "it says where and how far around");
     if (at == r->end)
-        return LMN_OK;
+        return check_circle(r, e);
     at = *at == '/' ? text_parse_double(at + 1, r->end, &paper) : NULL;
     at = at && at < r->end && *at == ':' ? text_parse_double(at + 1, r->end, &model) : NULL;
     e->scale = paper / model;
     return at == r->end && paper > 0 && model > 0 && e->scale >= 1e-9 && e->scale <= 1e9
-               ? LMN_OK
+               ? check_circle(r, e)
                : wrong(r, "its scale is PAPER:MODEL");
 }
 

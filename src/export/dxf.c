@@ -205,30 +205,72 @@ static double middle_length(const float *lengths, uint32_t count)
     return (double)own[taken / 2];
 }
 
+/* Four lengths are a pattern where they come again: two dashes, told one by one, are as long as their line. */
+static bool has_dots(const sheet *s, const sheet_path *path)
+{
+    const float *lengths = s->dashes + path->first_dash;
+    double       period = 0, length = 0;
+    if (path->dash_count != DXF_PATTERN_MOST)
+        return false;
+    for (int i = 0; i < DXF_PATTERN_MOST; i++)
+        period += (double)lengths[i];
+    for (uint32_t i = path->closed ? 0 : 1; i < path->count; i++) {
+        const float *a = s->points[path->first + (i ? i : path->count) - 1], *b = s->points[path->first + i];
+        length += hypot((double)(b[0] - a[0]), (double)(b[1] - a[1]));
+    }
+    return length > period;
+}
+
 dxf_line_type dxf_pattern_of(const sheet *s, const sheet_path *path)
 {
     /* The ends of a line, and corners, may have dashes of their own; programs lay patterns out as they like. */
-    const float *lengths = s->dashes + path->first_dash;
-    return (dxf_line_type){middle_length(lengths, path->dash_count), middle_length(lengths + 1, path->dash_count)};
+    const float  *lengths = s->dashes + path->first_dash;
+    dxf_line_type own = {.count = 2};
+    if (has_dots(s, path)) {
+        own.count = DXF_PATTERN_MOST;
+        for (int i = 0; i < DXF_PATTERN_MOST; i++)
+            own.lengths[i] = (double)lengths[i];
+        return own;
+    }
+    for (int i = 0; i < 2; i++)
+        own.lengths[i] = middle_length(lengths + i, path->dash_count);
+    return own;
 }
 
-const char *dxf_line_type_name(size_t index, char out[DXF_NAME_CAPACITY])
+const char *dxf_line_type_name(const dxf_writer *w, size_t index, char out[DXF_NAME_CAPACITY])
 {
     /* LibreCAD has patterns of its own for these names and none for others; the first is nearest to what is usual. */
-    static const char *const known[] = {"DASHEDTINY", "DASHED2", "DASHED", "DASHEDX2"};
-    if (index < sizeof known / sizeof *known)
-        return known[index];
-    snprintf(out, DXF_NAME_CAPACITY, "DASHED-%zu", index + 1);
+    enum { KNOWN = 4 };
+    static const char *const dashed[KNOWN] = {"DASHEDTINY", "DASHED2", "DASHED", "DASHEDX2"}, *const dotted[KNOWN] = {
+                                                                                                  "CENTERTINY",
+                                                                                                  "CENTER2", "CENTER",
+                                                                                                  "CENTERX2"};
+    const bool with_dots = w->line_types[index].count == DXF_PATTERN_MOST;
+    size_t     number = 0; /* among those that are like it */
+    for (size_t i = 0; i < index; i++)
+        number += w->line_types[i].count == w->line_types[index].count;
+    if (number < KNOWN)
+        return (with_dots ? dotted : dashed)[number];
+    snprintf(out, DXF_NAME_CAPACITY, "%s-%zu", with_dots ? "CENTER" : "DASHED", number + 1);
     return out;
 }
 
-/* The line type that a pattern is a stretched copy of, or nearest to. */
-static size_t nearest_line_type(const dxf_writer *w, dxf_line_type own, double *apart)
+/* How much one is no stretched copy of the other. */
+static double difference(const dxf_line_type *a, const dxf_line_type *b)
+{
+    double most = a->count == b->count ? 0 : INFINITY;
+    for (int i = 1; i < a->count && a->count == b->count; i++)
+        most = fmax(most, fabs(a->lengths[i] / a->lengths[0] - b->lengths[i] / b->lengths[0]));
+    return most;
+}
+
+/* The line type that a pattern is a stretched copy of, or nearest to; `apart` is infinite where there is none. */
+static size_t nearest_line_type(const dxf_writer *w, const dxf_line_type *own, double *apart)
 {
     size_t best = 0;
     *apart = INFINITY;
     for (size_t i = 0; i < w->line_type_count; i++) {
-        double there = fabs(w->line_types[i].gap / w->line_types[i].dash - own.gap / own.dash);
+        double there = difference(&w->line_types[i], own);
         best = there < *apart ? i : best;
         *apart = fmin(*apart, there);
     }
@@ -243,15 +285,13 @@ static void find_line_types(dxf_writer *w)
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < w->s->path_count && !w->out.failed; i++) {
             const sheet_path *path = &w->s->paths[i];
-            bool              certain = path->dash_count == 2 || path->dash_count >= CERTAIN_DASHES;
-            if (!path->dash_count || certain != (pass == 0))
+            dxf_line_type     own = path->dash_count ? dxf_pattern_of(w->s, path) : (dxf_line_type){.count = 0};
+            bool              certain = path->dash_count == 2 || path->dash_count >= CERTAIN_DASHES || own.count > 2;
+            if (!(own.lengths[0] > 0) || !(own.lengths[1] > 0) || certain != (pass == 0))
                 continue;
-            dxf_line_type own = dxf_pattern_of(w->s, path);
-            double        apart;
-            size_t        at = nearest_line_type(w, own, &apart);
-            if (!(own.dash > 0) || !(own.gap > 0))
-                continue;
-            if (apart > alike_pattern && (certain || !w->line_type_count)) {
+            double apart;
+            size_t at = nearest_line_type(w, &own, &apart);
+            if (apart > alike_pattern && (certain || isinf(apart))) {
                 at = w->line_type_count;
                 if (!mem_grow((void **)&w->line_types, &w->line_type_capacity, at + 1, sizeof *w->line_types)) {
                     w->out.failed = true;
@@ -316,33 +356,36 @@ static void begin_record(dxf_writer *w, const char *type, const char *class_name
     dxf_put(w, 100, class_name);
 }
 
-static void put_line_type(dxf_writer *w, unsigned table, const char *name, const char *words, dxf_line_type t)
+static void put_line_type(dxf_writer *w, unsigned table, const char *name, const char *words, const dxf_line_type *t)
 {
+    double period = 0;
+    for (int i = 0; i < t->count; i++)
+        period += t->lengths[i];
     begin_record(w, "LTYPE", "AcDbLinetypeTableRecord", table, 0);
     dxf_put(w, 2, name);
     dxf_put_whole(w, 70, 0);
     dxf_put(w, 3, words);
     dxf_put_whole(w, 72, 65);
-    dxf_put_whole(w, 73, t.dash > 0 ? 2 : 0);
-    dxf_put_number(w, 40, t.dash + t.gap);
-    if (!(t.dash > 0))
-        return;
-    dxf_put_number(w, 49, t.dash);
-    dxf_put_whole(w, 74, 0);
-    dxf_put_number(w, 49, -t.gap);
-    dxf_put_whole(w, 74, 0);
+    dxf_put_whole(w, 73, t->count);
+    dxf_put_number(w, 40, period);
+    for (int i = 0; i < t->count; i++) {
+        dxf_put_number(w, 49, i % 2 ? -t->lengths[i] : t->lengths[i]);
+        dxf_put_whole(w, 74, 0);
+    }
 }
 
 static void put_line_types(dxf_writer *w)
 {
-    static const dxf_line_type unbroken = {0, 0};
+    static const dxf_line_type unbroken = {.count = 0};
     unsigned                   table = begin_table(w, "LTYPE", w->line_type_count + 3);
-    put_line_type(w, table, "ByBlock", "", unbroken);
-    put_line_type(w, table, "ByLayer", "", unbroken);
-    put_line_type(w, table, "Continuous", "Solid line", unbroken);
+    put_line_type(w, table, "ByBlock", "", &unbroken);
+    put_line_type(w, table, "ByLayer", "", &unbroken);
+    put_line_type(w, table, "Continuous", "Solid line", &unbroken);
     for (size_t i = 0; i < w->line_type_count; i++) {
-        char name[DXF_NAME_CAPACITY];
-        put_line_type(w, table, dxf_line_type_name(i, name), "Dashed __ __ __", w->line_types[i]);
+        char                 name[DXF_NAME_CAPACITY];
+        const dxf_line_type *t = &w->line_types[i];
+        put_line_type(w, table, dxf_line_type_name(w, i, name),
+                      t->count == DXF_PATTERN_MOST ? "Long dash dot ____ . ____" : "Dashed __ __ __", t);
     }
     dxf_put(w, 0, "ENDTAB");
 }

@@ -51,12 +51,12 @@ static void begin_entity(dxf_writer *w, const char *type, const sheet_item *item
     dxf_put(w, 8, layer->name);
     if (line_type) {
         char name[DXF_NAME_CAPACITY];
-        dxf_put(w, 6, dxf_line_type_name(line_type - 1, name));
+        dxf_put(w, 6, dxf_line_type_name(w, line_type - 1, name));
     }
     if (ink != layer->ink)
         dxf_put_whole(w, 62, ink);
     if (line_type) {
-        double stretched = dxf_pattern_of(w->s, path).dash / w->line_types[line_type - 1].dash;
+        double stretched = dxf_pattern_of(w->s, path).lengths[0] / w->line_types[line_type - 1].lengths[0];
         if (fabs(stretched - 1) >= 5e-5)
             dxf_put_number(w, 48, stretched);
     }

@@ -10,9 +10,12 @@ typedef struct dxf_layer {
     int   ink, weight; /* of the first of its items; others say that theirs differ */
 } dxf_layer;
 
-/* One dash and one gap: of lines whose pattern is this one, or this one stretched. */
+/* Ink and gaps in turn, of lines whose pattern is this one, or this one stretched: a dash and a gap, or a dash, a gap,
+ * a dot and a gap. */
+enum { DXF_PATTERN_MOST = 4 };
 typedef struct dxf_line_type {
-    double dash, gap; /* mm */
+    double lengths[DXF_PATTERN_MOST]; /* mm */
+    int    count;                     /* 2, 4; 0: unbroken */
 } dxf_line_type;
 
 typedef struct dxf_writer {
@@ -48,10 +51,10 @@ int dxf_palette_index(colour ink);
 /* Of an item's lines, hundredths of a millimetre; DXF_NO_WEIGHT: it has none. */
 int              dxf_weight_of(const sheet *s, const sheet_item *item);
 const dxf_layer *dxf_layer_of(const dxf_writer *w, const sheet_item *item);
-/* Dash and gap of a path. */
+/* What the dashes of a path are again and again. */
 dxf_line_type dxf_pattern_of(const sheet *s, const sheet_path *path);
-/* The name of a line type by its number; lent until the next call with the same buffer. */
-const char *dxf_line_type_name(size_t index, char out[DXF_NAME_CAPACITY]);
+/* The name of a line type of the file by its number; lent until the next call with the same buffer. */
+const char *dxf_line_type_name(const dxf_writer *w, size_t index, char out[DXF_NAME_CAPACITY]);
 
 void dxf_put_entities(dxf_writer *w);
 

@@ -8,6 +8,7 @@
 #include "fence/fence.h"
 #include "import/assimp_stream.h"
 #include "import/build.h"
+#include "import/threemf.h"
 
 /* The ending is all that assimp needs of the path. */
 static void put_request(fence_bytes *request, const import_job *job)
@@ -48,14 +49,15 @@ lmn_status assimp_load(const import_job *job, lmn_error *error)
     }
     char ending[16];
     file_ending(job->path, ending, sizeof ending);
-    if (strcmp(ending, ".3mf") == 0)
+    const bool threemf = strcmp(ending, ".3mf") == 0;
+    if (threemf)
         job->scene->up = 'z'; /* by its specification, which assimp leaves to its users */
     fence_reader r = fence_read(answer.bytes, answer.size);
     status = warn_of_others(job, &r, error);
     if (status == LMN_OK)
         status = assimp_stream_read(job, r.at, (size_t)(r.end - r.at), error);
     mem_free(answer.bytes);
-    return status;
+    return status == LMN_OK && threemf ? threemf_describe(job, error) : status;
 }
 
 const import_format import_assimp = {

@@ -15,7 +15,7 @@ namespace cad
 
 struct Failure {
     step_result result;
-    const char *message;
+    std::string message;
 };
 
 struct File {

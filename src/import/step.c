@@ -61,6 +61,10 @@ static lmn_status answer_step(const unsigned char *request, size_t size, fence_b
         error_set(error, LMN_LIMIT, "the model has more than %llu triangles", (unsigned long long)head.most_triangles);
         error_hint(error, "a larger --deflection makes fewer of them");
         return LMN_LIMIT;
+    case STEP_NO_SIZE:
+        error_set(error, LMN_FORMAT, "the unit of the file is %.200s", message);
+        error_hint(error, "see whether that is the unit it was made in, and export it again in millimetres");
+        return LMN_FORMAT;
     case STEP_EMPTY: return error_set(error, LMN_FORMAT, "nothing in the file can be drawn");
     default:
         error_set(error, LMN_FORMAT, "the data is damaged%s%.200s", message[0] ? ": " : "", message);

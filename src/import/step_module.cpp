@@ -675,6 +675,47 @@ void prepare()
     }
 }
 
+// What could not be drawn, since its unit makes it smaller than what OpenCASCADE takes for one place, or so large that
+// its numbers have no such places any more. That is no damage.
+void tell_size(const cad::File &file, const TDF_LabelSequence &roots)
+{
+    constexpr double smallest = 1e-3, largest = 1e15; // mm
+    Bnd_Box          box;                             // of the vertices: tolerances are larger than such a model
+    for (int i = 1; i <= roots.Length(); i++)
+        for (TopExp_Explorer at(XCAFDoc_ShapeTool::GetShape(roots.Value(i)), TopAbs_VERTEX); at.More(); at.Next())
+            box.Add(BRep_Tool::Pnt(TopoDS::Vertex(at.Current())));
+    const bool has_vertices = !box.IsVoid(); // they go where all edges of the model are as long as nothing
+    for (int i = 1; i <= roots.Length() && !has_vertices; i++)
+        BRepBndLib::Add(XCAFDoc_ShapeTool::GetShape(roots.Value(i)), box, false);
+    if (box.IsVoid() || file.unit.empty())
+        return;
+    const double size = std::sqrt(box.SquareExtent());
+    char         message[160];
+    std::snprintf(message, sizeof message, "%.40s, which makes the model %s%.3g mm large: %s than can be drawn",
+                  file.unit.c_str(), has_vertices ? "" : "less than ", size, size < smallest ? "smaller" : "larger");
+    if (size < smallest || size > largest)
+        throw Failure{STEP_NO_SIZE, message};
+}
+
+void add_all(Tree &tree, const cad::File &file, const TDF_LabelSequence &roots)
+{
+    try {
+        for (int i = 1; i <= roots.Length(); i++)
+            add(tree, roots.Value(i), STEP_NONE, Colour(), 0);
+        if (tree.meshes.empty())
+            throw Failure{STEP_EMPTY, "nothing in the file can be drawn"};
+    } catch (const Standard_OutOfMemory &) {
+        throw;
+    } catch (const Standard_Failure &) {
+        tell_size(file, roots);
+        throw;
+    } catch (const Failure &f) {
+        if (f.result == STEP_EMPTY)
+            tell_size(file, roots);
+        throw;
+    }
+}
+
 void read_all(const step_request &request, const Answer &answer)
 {
     const cad::File   file = request.kind == STEP_KIND_IGES ? cad::read_iges(request.bytes, request.size)
@@ -686,10 +727,7 @@ void read_all(const step_request &request, const Answer &answer)
     tree.mesher.deflection = request.deflection;
     tree.mesher.left = request.most_triangles;
     tree.shapes->GetFreeShapes(roots);
-    for (int i = 1; i <= roots.Length(); i++)
-        add(tree, roots.Value(i), STEP_NONE, Colour(), 0);
-    if (tree.meshes.empty())
-        throw Failure{STEP_EMPTY, "nothing in the file can be drawn"};
+    add_all(tree, file, roots);
     put_tree(answer, tree, file);
 }
 
@@ -700,7 +738,7 @@ step_result read(const step_request *request, step_put_fn put, void *to, char *m
         read_all(*request, Answer(put, to));
         return STEP_DONE;
     } catch (const Failure &f) {
-        std::snprintf(message, message_size, "%s", f.message);
+        std::snprintf(message, message_size, "%s", f.message.c_str());
         return f.result;
     } catch (const std::bad_alloc &) {
         return STEP_TOO_MUCH_MEMORY;

@@ -24,7 +24,7 @@ extern "C" {
 #define STEP_NONE 0xffffffffu
 
 /* Changes whenever what goes between the two does. */
-enum { STEP_INTERFACE = 4 };
+enum { STEP_INTERFACE = 5 };
 
 /* What the file is. */
 typedef enum step_kind { STEP_KIND_STEP, STEP_KIND_IGES } step_kind;
@@ -38,6 +38,7 @@ typedef enum step_result {
     STEP_EMPTY,
     STEP_TOO_MUCH_MEMORY,
     STEP_TOO_MANY, /* triangles */
+    STEP_NO_SIZE,  /* its unit makes it smaller or larger than can be drawn */
 } step_result;
 
 /* What the file names and cannot be had. Firsts are the file's own numbers (#12; of IGES lines of

@@ -16,7 +16,8 @@ lmn_status unit_find(const char *text, const lmn_scene *scene, double *mm, const
     if (!text && scene->file_count)
         file_ending(scene->files[0], ending, sizeof ending);
     static const char *const in_metres[] = {".gltf", ".glb", ".json", ".jsonl", ".gml", ".citygml", ".ifc"};
-    static const char *const in_millimetres[] = {".stl", ".csg", ".scad", ".step", ".stp", ".p21", ".iges", ".igs"};
+    static const char *const in_millimetres[] = {".stl", ".csg",  ".scad", ".step", ".stp",
+                                                 ".p21", ".iges", ".igs",  ".3mf"};
     bool                     metres = false, millimetres = false;
     for (size_t i = 0; i < sizeof in_metres / sizeof *in_metres; i++)
         metres = metres || strcmp(ending, in_metres[i]) == 0;

@@ -30,17 +30,19 @@ static bool is_said(const char *fields, const char *key)
     return false;
 }
 
-/* Writers put the path of the file where its title belongs. */
+/* What the header says, else what the file is called. Writers put the path of the file where its title belongs. */
 static void take_title(vector_job *j)
 {
-    const char *title = fact_of(j->scene, "file-title"), *slash = title ? strrchr(title, '/') : NULL,
-               *other = title ? strrchr(title, '\\') : NULL;
-    if (!title || (j->wanted->title && *j->wanted->title))
+    const char *said = fact_of(j->scene, "file-title"), *title = said;
+    if (j->wanted->title && *j->wanted->title)
         return;
+    if (!said)
+        title = j->scene->file_count ? j->scene->files[0] : "";
+    const char *slash = strrchr(title, '/'), *other = strrchr(title, '\\');
     title = slash > other ? slash + 1 : other ? other + 1 : title;
     size_t      length = strlen(title);
     const char *dot = strrchr(title, '.');
-    if (dot && dot > title && strlen(dot) <= 5 && !strchr(dot, ' '))
+    if (dot && dot > title && (!said || (strlen(dot) <= 5 && !strchr(dot, ' '))))
         length = (size_t)(dot - title);
     snprintf(j->title, sizeof j->title, "%.*s", (int)(length < sizeof j->title ? length : sizeof j->title - 1), title);
     if (j->title[0])

@@ -454,6 +454,57 @@ static void test_section_in_steps(void **state)
     lmn_sheet_destroy(&s);
 }
 
+/* Entities of DXF on layers whose names begin so, that have a line type of their own; how many of them have one whose
+ * name begins so. */
+static void count_line_types(const char *dxf, const char *layer, const char *name, size_t out[2])
+{
+    static const char head[] = "\nAcDbEntity\n8\n";
+    for (const char *at = dxf; (at = strstr(at, head)) != NULL;) {
+        at += sizeof head - 1;
+        const char *type = strchr(at, '\n');
+        if (strncmp(at, layer, strlen(layer)) != 0 || strncmp(type, "\n6\n", 3) != 0)
+            continue;
+        out[0]++;
+        out[1] += strncmp(type + 3, name, strlen(name)) == 0;
+    }
+}
+
+/* Centre lines and the traces of cutting planes are long-dashed and dotted in DXF, too: 24, 3, 0.5 and 3 widths, and
+ * hidden lines are dashed beside them. */
+static void test_chain_lines_in_dxf(void **state)
+{
+    export_bytes   bytes;
+    lmn_error      error = {0};
+    lmn_sheet_desc d = usual();
+    size_t         centres[2] = {0}, traces[2] = {0};
+    bool           hidden;
+    (void)state;
+    d.centre_lines = true;
+    d.sections = "front@-19.05255888,-5.5,0,16.5,19.05255888";
+    lmn_sheet *s = draw(&d);
+    assert_int_equal(export_dxf(&bytes, &s->page, &error), LMN_OK);
+    const char *dxf = (const char *)bytes.data;
+    count_line_types(dxf, "CENTRE", "CENTER", centres);
+    count_line_types(dxf, "VIEW-MARK", "CENTER", traces);
+    hidden = strstr(dxf, "\n6\nDASHEDTINY\n") != NULL;
+    print_message("%zu of %zu centre lines, %zu of %zu traces, hidden lines dashed: %d\n", centres[1], centres[0],
+                  traces[1], traces[0], hidden);
+    assert_true(centres[0] > 0 && centres[1] == centres[0]);
+    assert_true(traces[0] > 0 && traces[1] == traces[0] && hidden);
+    const char *type = strstr(dxf, "\n2\nCENTERTINY\n");
+    double      lengths[4], period;
+    assert_non_null(type);
+    assert_int_equal(sscanf(strstr(type, "\n73\n"),
+                            "\n73\n4\n40\n%lf\n49\n%lf\n74\n0\n49\n%lf\n74\n0\n49\n%lf\n74\n0\n49\n%lf", &period,
+                            &lengths[0], &lengths[1], &lengths[2], &lengths[3]),
+                     5);
+    assert_true(fabs(lengths[1] / lengths[0] + 3 / 24.0) < 1e-3 && fabs(lengths[2] / lengths[0] - 0.5 / 24) < 1e-3);
+    assert_true(fabs(lengths[3] - lengths[1]) < 1e-3);
+    assert_true(fabs(period - lengths[0] + lengths[1] - lengths[2] + lengths[3]) < 1e-3);
+    mem_free(bytes.data);
+    lmn_sheet_destroy(&s);
+}
+
 static void test_half_section(void **state)
 {
     double         at[2];
@@ -818,14 +869,35 @@ static void test_header(void **state)
 #endif
 }
 
+/* A drawing that nobody has named is called as its file is, in either of the two blocks. */
+static void test_title_of_file(void **state)
+{
+    static const double groups[] = {0, 0.5};
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        lmn_sheet_desc d = usual();
+        d.frame = true;
+        d.line_group = groups[i];
+        lmn_sheet *s = draw(&d);
+        assert_int_equal(count_texts(s, "model"), 1); /* model.csg */
+        assert_string_equal(s->page.title, "model");
+        lmn_sheet_destroy(&s);
+        d.title = "Plate";
+        s = draw(&d);
+        assert_int_equal(count_texts(s, "Plate"), 1);
+        assert_int_equal(count_texts(s, "model"), 0);
+        lmn_sheet_destroy(&s);
+    }
+}
+
 static void refuse(const lmn_sheet_desc *d, lmn_status status, const char *words)
 {
     lmn_draw_desc how = LMN_DRAW_DESC_INIT;
     lmn_sheet    *s = NULL;
     lmn_error     error = {0};
     assert_int_equal(lmn_draw_sheet(&s, NULL, f.scene, f.look, &how, d, &error), status);
-    if (!strstr(error.message, words))
-        fail_msg("'%s' lacks '%s'", error.message, words);
+    if (!strstr(error.message, words) && !strstr(error.hint, words))
+        fail_msg("'%s' (%s) lacks '%s'", error.message, error.hint, words);
 }
 
 static void test_refused(void **state)
@@ -860,6 +932,30 @@ static void test_refused(void **state)
         lmn_sheet_desc d = usual();
         d.auxiliary = directions[i];
         refuse(&d, LMN_USAGE, "the auxiliary view is '");
+    }
+    /* What lies beside the model: x from -40 to 40, y from -30 to 30, z from 0 to 30. */
+    static const char *const beside[][2] = {{"front@1e9", "nothing is cut by the plane y = 1e+09"},
+                                            {"top@-1", "nothing is cut by the plane z = -1"},
+                                            {"front@100%", "nothing is cut by the plane y = 30"},
+                                            {"front@-5,0,31", "nothing is cut by the plane y = 31"},
+                                            {"front@-5,41,5", "x = 41"},
+                                            {"front@40,half", "nothing is cut by the plane y = 40"},
+                                            {"front@revolved,41", "nothing is cut by the plane x = 41"}};
+    for (size_t i = 0; i < sizeof beside / sizeof *beside; i++) {
+        lmn_sheet_desc d = usual();
+        d.sections = beside[i][0];
+        refuse(&d, LMN_USAGE, beside[i][1]);
+        refuse(&d, LMN_USAGE,
+               strchr(beside[i][1], 'z')     ? "from 0 to 30"
+               : strstr(beside[i][1], "x =") ? "from -40 to 40"
+                                             : "from -30 to 30");
+    }
+    static const char *const apart_details[] = {"front@900,0,0/1", "top@42,0,0/1.9", "front@41,0,31/1.2"};
+    for (size_t i = 0; i < sizeof apart_details / sizeof *apart_details; i++) {
+        lmn_sheet_desc d = usual();
+        d.details = apart_details[i];
+        refuse(&d, LMN_USAGE, "nothing of the model lies in the circle");
+        refuse(&d, LMN_USAGE, "x from -40 to 40");
     }
     lmn_sheet_desc d = usual();
     d.sections = "front;front;front;front;front;front;front;front;front;front;front;front;front";
@@ -909,6 +1005,7 @@ int main(void)
 #endif
                                        cmocka_unit_test(test_centre_lines),
                                        cmocka_unit_test(test_section_in_steps),
+                                       cmocka_unit_test(test_chain_lines_in_dxf),
                                        cmocka_unit_test(test_half_section),
                                        cmocka_unit_test(test_revolved),
                                        cmocka_unit_test(test_apart),
@@ -920,6 +1017,7 @@ int main(void)
                                        cmocka_unit_test(test_axis_in_cutting_plane),
                                        cmocka_unit_test(test_title_block),
                                        cmocka_unit_test(test_header),
+                                       cmocka_unit_test(test_title_of_file),
                                        cmocka_unit_test(test_refused),
                                        cmocka_unit_test(test_out_of_memory)};
     return cmocka_run_group_tests(tests, set_up, tear_down);

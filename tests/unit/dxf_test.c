@@ -412,6 +412,33 @@ static void test_words(void **state)
     sheet_release(&s);
 }
 
+/* Four lengths are a dash and a dot where they come again, straight or round, and two dashes where they are all of
+ * their line. */
+static void test_patterns(void **state)
+{
+    static const float ends[2][2] = {{10, 10}, {50, 10}}, corners[4][2] = {{10, 20}, {20, 20}, {20, 30}, {10, 30}};
+    sheet              s;
+    export_bytes       bytes;
+    lmn_error          error = {0};
+    (void)state;
+    sheet_begin(&s, 100, 50, 4);
+    uint32_t group = sheet_add_group(&s, -1, "lines", "lines", 0);
+    sheet_add_item(&s, SHEET_PATH, group, (colour){0, 0, 0, 1}, 0);
+    sheet_add_path(&s, &(sheet_path){.width = 0.25f}, ends, 2);
+    sheet_dash_path(&s, (const float[4]){6, 0.75f, 0.125f, 0.75f}, 4, 0);
+    sheet_add_path(&s, &(sheet_path){.width = 0.25f, .closed = true}, corners, 4);
+    sheet_dash_path(&s, (const float[4]){12, 1.5f, 0.25f, 1.5f}, 4, 0);
+    sheet_add_path(&s, &(sheet_path){.width = 0.25f}, ends, 2);
+    sheet_dash_path(&s, (const float[4]){24, 3, 13, 3}, 4, 0);
+    assert_int_equal(export_dxf(&bytes, &s, &error), LMN_OK);
+    const char *at = strstr((const char *)bytes.data, "\nENTITIES\n");
+    assert_non_null(at = strstr(at, "\n6\nCENTERTINY\n100\nAcDbLine\n"));
+    assert_non_null(at = strstr(at, "\n6\nCENTERTINY\n48\n2.0\n100\nAcDbPolyline\n")); /* the same, twice as long */
+    assert_non_null(strstr(at, "\n6\nDASHEDTINY\n100\nAcDbLine\n"));
+    mem_free(bytes.data);
+    sheet_release(&s);
+}
+
 static void test_nothing(void **state)
 {
     sheet        s;
@@ -430,6 +457,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_read_back),      cmocka_unit_test(test_curves_by_dxflib),
                                        cmocka_unit_test(test_curves_by_gdal), cmocka_unit_test(test_hatch),
-                                       cmocka_unit_test(test_words),          cmocka_unit_test(test_nothing)};
+                                       cmocka_unit_test(test_words),          cmocka_unit_test(test_patterns),
+                                       cmocka_unit_test(test_nothing)};
     return cmocka_run_group_tests_name("dxf", tests, NULL, NULL);
 }

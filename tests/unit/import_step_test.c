@@ -465,6 +465,33 @@ static void units_are_obeyed(void **state)
     file_data_release(&f);
 }
 
+/* A unit that makes the model smaller or larger than anything that can be drawn is what is wrong, and is told. */
+static void units_that_are_none_are_told(void **state)
+{
+    (void)state;
+    static const char *const rows[][3] = {
+        {".PICO.", "picometre, which makes the model less than 4.1e-07 mm", "smaller"},
+        {".NANO.", "nanometre, which makes the model 6.4", "smaller"},
+        {".PETA.", "petametre, which makes the model 6.4e+19 mm", "larger"},
+        {".EXA. ", "exametre, which makes the model 6.4e+22 mm", "larger"}};
+    file_data f = {0};
+    assert_int_equal(file_load(&f, bracket_path, NULL), LMN_OK);
+    char *text = malloc(f.size + 1), *at;
+    memcpy(text, f.data, f.size);
+    text[f.size] = '\0';
+    assert_non_null(at = strstr(text, ".MILLI.,.METRE."));
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        lmn_error error = {0};
+        memcpy(at, "       ", 7);
+        memcpy(at, rows[i][0], 6);
+        assert_int_equal(load_status(temp_file("units.step", text, f.size), &error), LMN_FORMAT);
+        if (!strstr(error.message, rows[i][1]) || !strstr(error.message, rows[i][2]) || !strstr(error.hint, "unit"))
+            fail_msg("'%s' (%s)", error.message, error.hint);
+    }
+    free(text);
+    file_data_release(&f);
+}
+
 /* Each solid of a part is a part; a wire is lines without triangles. */
 static void solids_and_wires_are_parts(void **state)
 {
@@ -702,6 +729,7 @@ int main(void)
                                        cmocka_unit_test(faces_have_their_colours),
                                        cmocka_unit_test(assemblies_keep_their_tree),
                                        cmocka_unit_test(units_are_obeyed),
+                                       cmocka_unit_test(units_that_are_none_are_told),
                                        cmocka_unit_test(solids_and_wires_are_parts),
                                        cmocka_unit_test(damaged_files_are_errors),
                                        cmocka_unit_test(missing_references_are_no_crash),
