@@ -417,7 +417,8 @@ bool edges_mark_hollow(edge_mesh *m, const double *volumes)
     }
     if (!hollow)
         return false;
-    memcpy(m->edges + kept, hollow, apart * sizeof *hollow);
+    if (apart)
+        memcpy(m->edges + kept, hollow, apart * sizeof *hollow);
     mem_free(hollow);
     m->edge_count = kept + apart;
     mesh_edge *smaller = mem_realloc(m->edges, (size_t)m->edge_count * sizeof *smaller);

@@ -40,6 +40,12 @@ static void put_edge(float *out, const record_bends *bends, uint32_t edge)
     put_vector(out + 12, m->normals[e->face[pair]], begin, pair ? outward * twist : -outward);
 }
 
+/* What is hidden has exact lines alone. */
+static bool is_never_seen(const edge_mesh *m, const mesh_edge *e)
+{
+    return !m->solid && (e->flags & ~(uint32_t)EDGE_TWISTED) == (EDGE_CANDIDATE | EDGE_HOLLOW);
+}
+
 static bool is_always_line(const mesh_edge *e)
 {
     return (e->flags & (EDGE_BORDER | EDGE_CREASE | EDGE_MATERIAL)) != 0;
@@ -49,10 +55,10 @@ static bool is_always_line(const mesh_edge *e)
 static bool is_ever_line(const edge_mesh *m, const mesh_edge *e)
 {
     const float turned = 1e-10f; /* squared, radians */
+    if (is_never_seen(m, e))
+        return false;
     if (is_always_line(e) || (e->flags & (EDGE_QUIET | EDGE_TWISTED)) || e->face[1] == EDGE_NO_FACE)
         return true;
-    if (!m->solid && (e->flags & EDGE_HOLLOW)) /* always hidden, and what is hidden has exact lines alone */
-        return false;
     vec3  n = m->normals[e->face[0]], o = m->normals[e->face[1]];
     float x = n.x - o.x, y = n.y - o.y, z = n.z - o.z;
     return x * x + y * y + z * z > turned;
@@ -72,7 +78,8 @@ double strokes_gentlest_turn(const edge_mesh *m)
     double       least = 3.14159265358979323846;
     for (uint32_t i = 0; i < m->edge_count && least > 0; i++) {
         const mesh_edge *e = &m->edges[i];
-        if (e->face[1] == EDGE_NO_FACE || is_hollow_of_solid(m, e) || (e->flags & (EDGE_BORDER | EDGE_ROUNDED)))
+        if (e->face[1] == EDGE_NO_FACE || is_hollow_of_solid(m, e) || is_never_seen(m, e) ||
+            (e->flags & (EDGE_BORDER | EDGE_ROUNDED)))
             continue;
         vec3   n = m->normals[e->face[0]], o = m->normals[e->face[1]];
         double cosine = (e->flags & EDGE_TWISTED ? -1 : 1) * (double)(n.x * o.x + n.y * o.y + n.z * o.z);
@@ -158,7 +165,8 @@ static void sift(size_t begin, size_t end, void *user)
         for (uint32_t i = first; i < s->m->edge_count && i < first + SIFT_STEP; i++) {
             const mesh_edge *e = &s->m->edges[i];
             s->kept[first + count] = i;
-            count += is_always_line(e) || (e->flags & EDGE_QUIET) || may_be_outline(s->m, e, s->viewer);
+            count += !is_never_seen(s->m, e) &&
+                     (is_always_line(e) || (e->flags & EDGE_QUIET) || may_be_outline(s->m, e, s->viewer));
         }
         s->counts[step] = count;
     }
