@@ -47,10 +47,11 @@ static void make_ring(shape *s, double noise)
 
 static void measure(double noise, const char *contours, const float *depth, const shot_view *view)
 {
-    shape             s = {0};
-    shot              drawn;
-    outline_score     score;
-    const char *const changes[] = {"lines.contours", contours, "lines.creases", "false", NULL};
+    shape         s = {0};
+    shot          drawn;
+    outline_score score;
+    /* Outlines alone: suggestive contours, which the look has besides, are none. */
+    const char *const changes[] = {"lines.contours", contours, "lines.creases", "false", "lines.suggestive", "0", NULL};
     make_ring(&s, noise);
     if (shot_of_shape(&drawn, &s, "scan.ply", "line", changes, view)) {
         outline_measure(&score, drawn.picture, SIDE, SIDE, depth, FINER);
