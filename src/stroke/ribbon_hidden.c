@@ -21,7 +21,7 @@ static const float same_depth = 0.02f; /* the same in depth, fraction of the dep
 static const float corner_cosine = 0.7f;  /* of the least turn that is a corner */
 static const float crumpled_least = 0.5f; /* of a figure that is left out for that */
 /* Of all hidden lines of a body of which none are drawn then: of noise, or teeth, what is left would be chance. */
-static const float crumpled_body = 0.05f;
+static const float crumpled_body = 0.2f;
 static const float crumpled_pieces = 32; /* and it is so many dashes and gaps: a few may be short in any body */
 
 /* Of the hidden lines of a wholly hidden body or part so much is drawn, or nothing is, and of one that is seen. */
@@ -87,6 +87,7 @@ typedef struct hidden_figures {
     uint32_t         *runs;     /* the same of its run */
     float            *shown;    /* per stroke: length without gaps */
     float            *lengths;  /* of figures */
+    float            *trifles;  /* per stroke: of what was left out as too small a figure, so much was shown */
     float            *crumpled; /* per stroke, of it: length in pieces between corners shorter than a dash and a gap */
     float            *creased;  /* the same, of figures */
     bool             *loose;    /* of runs: has an end at nothing */
@@ -304,13 +305,24 @@ static bool sift(hidden_figures *f)
         float          dash = ribbon_dash_length(f->job, &f->job->strokes->strokes[i]);
         float          least = DASHES_LEAST * dash + (DASHES_LEAST - 1) * style->hidden_gap;
         const uint32_t figure = first_of(f->figures, i);
-        if (f->loose[first_of(f->runs, i)] || f->lengths[figure] < least * 0.9999f ||
-            f->creased[figure] > crumpled_least * f->lengths[figure]) {
+        const bool     small =
+            f->lengths[figure] < least * 0.9999f || f->creased[figure] > crumpled_least * f->lengths[figure];
+        if (small || f->loose[first_of(f->runs, i)]) {
             f->kept[i] = false;
+            f->trifles[i] = small ? f->shown[i] : 0;
             some = true;
         }
     }
     return some;
+}
+
+/* Length of what says nothing in a run, however much of the rest is drawn: teeth have much of that. */
+static float trifles_of(const hidden_figures *f, const hidden_run *run)
+{
+    float length = 0;
+    for (uint32_t i = 0; i < run->count; i++)
+        length += f->trifles[run->first + i];
+    return length;
 }
 
 /* Length of what is drawn of a run. */
@@ -350,7 +362,7 @@ static bool sift_groups(hidden_figures *f, bool parts)
         float wanted = 0, left = 0;
         bool  seen = false;
         for (end = i; end < f->order.count && is_one_group(&runs[end], &runs[i], parts); end++) {
-            wanted += f->wanted[end];
+            wanted += fmaxf(f->wanted[end] - trifles_of(f, &runs[end]), 0);
             left += drawn_of(f, &runs[end]);
             seen = seen || runs[end].seen;
         }
@@ -390,6 +402,7 @@ static bool open_figures(hidden_figures *f, const gap_list *gaps)
     f->shown = mem_calloc(count, sizeof *f->shown);
     f->lengths = mem_calloc(count, sizeof *f->lengths);
     f->crumpled = mem_calloc(count, sizeof *f->crumpled);
+    f->trifles = mem_calloc(count, sizeof *f->trifles);
     f->creased = mem_calloc(count, sizeof *f->creased);
     f->loose = mem_calloc(count, sizeof *f->loose);
     f->runs = mem_calloc(count, sizeof *f->runs);
@@ -397,7 +410,7 @@ static bool open_figures(hidden_figures *f, const gap_list *gaps)
     f->twin = *set;
     f->twin.strokes = mem_calloc(count, sizeof *f->twin.strokes);
     if (!f->kept || !f->figures || !f->shown || !f->lengths || !f->loose || !f->runs || !f->wanted || !f->crumpled ||
-        !f->creased || !f->twin.strokes || !hidden_runs_find(&f->order, f->job))
+        !f->trifles || !f->creased || !f->twin.strokes || !hidden_runs_find(&f->order, f->job))
         return false;
     memcpy(f->twin.strokes, set->strokes, set->stroke_count * sizeof *set->strokes);
     memcpy(f->kept, f->job->drawn, set->stroke_count * sizeof *f->kept);
@@ -427,6 +440,7 @@ static void close_figures(hidden_figures *f)
     mem_free(f->shown);
     mem_free(f->lengths);
     mem_free(f->crumpled);
+    mem_free(f->trifles);
     mem_free(f->creased);
     mem_free(f->loose);
     mem_free(f->runs);
