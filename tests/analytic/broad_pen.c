@@ -5,20 +5,7 @@
 #include "check.h"
 #include "shape.h"
 #include "shot.h"
-
-static const shot_view front = {
-    .width = 256, .height = 256, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 18};
-
-static const char *surface_look(const char *surface, const char *light, double fill)
-{
-    static char text[1024];
-    snprintf(text, sizeof text,
-             "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"light_direction\":\"%s\","
-             "\"fill\":%g},"
-             "\"rules\":[{\"surface\":%s}]}",
-             light, fill, surface);
-    return text;
-}
+#include "surface_look.h"
 
 /* A broad pen's strokes over a wall: in full light some of the paper shows between them, without any light hardly, and
  * the page changes across them and not along. */

@@ -6,6 +6,7 @@
 
 #include "check.h"
 #include "hatch_truth.h"
+#include "one_tone.h"
 #include "shape.h"
 #include "shot.h"
 
@@ -15,20 +16,6 @@ static const double PI = 3.14159265358979323846;
 
 static const char *const media[] = {"chalk", "charcoal", "crayon"};
 enum { MEDIA = sizeof media / sizeof *media };
-
-static const char *const one_tone[] = {"surface.shadow",
-                                       "0.55",
-                                       "surface.light",
-                                       "0.55",
-                                       "surface.texture",
-                                       "0",
-                                       "scene.ground",
-                                       "none",
-                                       "lines.operator",
-                                       "none",
-                                       "perturb.technique",
-                                       "none",
-                                       NULL};
 
 static double shown(const uint8_t *rgba)
 {
@@ -65,7 +52,9 @@ static void slant(const shot *s, int left, int right, double out[2])
 /* The two faces of an edge, equally dark: strokes of each have a direction, and not the other's. */
 static void faces_have_their_own_strokes(void)
 {
-    shape model = {0};
+    shape    model = {0};
+    one_tone even;
+    one_tone_set(&even, 0.55, NULL);
     shape_wedge(&model, "wedge", 80);
     for (size_t m = 0; m < MEDIA; m++) {
         shot      s;
@@ -76,7 +65,7 @@ static void faces_have_their_own_strokes(void)
                           .up = {0, 1, 0},
                           .fov_deg = 12,
                           .without_maps = true};
-        if (!shot_of_shape(&s, &model, "wedge.glb", media[m], one_tone, &view))
+        if (!shot_of_shape(&s, &model, "wedge.glb", media[m], even.changes, &view))
             continue;
         double left[2], right[2];
         slant(&s, SIDE / 2 - SIDE / 3, SIDE / 2 - 24, left);
@@ -91,30 +80,17 @@ static void faces_have_their_own_strokes(void)
 
 static bool wall(shot *out, const shape *model, const char *look, int finer, double tone)
 {
-    int         side = finer * SIDE;
-    char        text[32];
-    const char *changes[] = {"surface.shadow",
-                             text,
-                             "surface.light",
-                             text,
-                             "surface.texture",
-                             "0",
-                             "scene.ground",
-                             "none",
-                             "lines.operator",
-                             "none",
-                             "perturb.technique",
-                             "none",
-                             NULL};
-    shot_view   view = {.width = side,
-                        .height = side,
-                        .dpi = 96 * finer,
-                        .eye = {0, 0, 5},
-                        .up = {0, 1, 0},
-                        .orthographic = true,
-                        .without_maps = true};
-    snprintf(text, sizeof text, "%.9g", tone);
-    return shot_of_shape(out, model, "stick_wall.glb", look, changes, &view);
+    int       side = finer * SIDE;
+    one_tone  even;
+    shot_view view = {.width = side,
+                      .height = side,
+                      .dpi = 96 * finer,
+                      .eye = {0, 0, 5},
+                      .up = {0, 1, 0},
+                      .orthographic = true,
+                      .without_maps = true};
+    one_tone_set(&even, tone, NULL);
+    return shot_of_shape(out, model, "stick_wall.glb", look, even.changes, &view);
 }
 
 /* Strokes and teeth are lengths on paper: a picture of twice the size is the same drawing, finer. */

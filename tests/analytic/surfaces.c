@@ -8,22 +8,9 @@
 #include "picture.h"
 #include "shape.h"
 #include "shot.h"
+#include "surface_look.h"
 
 static const double PI = 3.14159265358979323846;
-
-static const shot_view front = {
-    .width = 256, .height = 256, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 18};
-
-static const char *surface_look(const char *surface, const char *light, double fill)
-{
-    static char text[1024];
-    snprintf(text, sizeof text,
-             "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"light_direction\":\"%s\","
-             "\"fill\":%g},"
-             "\"rules\":[{\"surface\":%s}]}",
-             light, fill, surface);
-    return text;
-}
 
 static bool take_ball(shot *out, const char *look, const char *const *changes)
 {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "one_tone.h"
 #include "picture.h"
 #include "shape.h"
 #include "shot.h"
@@ -20,28 +21,13 @@ static double shown(const uint8_t *rgba)
 /* A wall that a look draws at one tone; `without`: a parameter that shall be 0, too, or NULL. */
 static bool wall_shot(shot *out, const char *look, double tone, double half, const char *without)
 {
-    shape       model = {0};
-    char        text[32];
-    const char *changes[] = {"surface.shadow",
-                             text,
-                             "surface.light",
-                             text,
-                             "surface.texture",
-                             "0",
-                             "scene.ground",
-                             "none",
-                             "lines.operator",
-                             "none",
-                             "perturb.technique",
-                             "none",
-                             without,
-                             "0",
-                             NULL};
-    shot_view   view = {
-          .width = WEDGE, .height = WEDGE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .orthographic = true, .without_maps = true};
-    snprintf(text, sizeof text, "%.9g", tone);
+    shape     model = {0};
+    one_tone  even;
+    shot_view view = {
+        .width = WEDGE, .height = WEDGE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .orthographic = true, .without_maps = true};
+    one_tone_set(&even, tone, without);
     shape_quad(&model, "wall", half, 0);
-    bool good = shot_of_shape(out, &model, "wall.glb", look, changes, &view);
+    bool good = shot_of_shape(out, &model, "wall.glb", look, even.changes, &view);
     shape_release(&model);
     return good;
 }

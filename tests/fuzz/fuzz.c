@@ -31,6 +31,7 @@ static const fuzz_target targets[] = {
     {"stream", fuzz_stream, NULL},
     {"step", fuzz_step, NULL},
     {"ifc", fuzz_ifc, NULL},
+    {"threemf", fuzz_threemf, NULL},
     {"image", fuzz_image, NULL},
     {"draco", fuzz_draco, NULL},
     {"stx", fuzz_stx, NULL},

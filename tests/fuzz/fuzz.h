@@ -40,6 +40,7 @@ void fuzz_csg(const uint8_t *bytes, size_t size);
 void fuzz_dxf(const uint8_t *bytes, size_t size);
 void fuzz_step(const uint8_t *bytes, size_t size);
 void fuzz_ifc(const uint8_t *bytes, size_t size);
+void fuzz_threemf(const uint8_t *bytes, size_t size);
 void fuzz_stream(const uint8_t *bytes, size_t size);
 void fuzz_image(const uint8_t *bytes, size_t size);
 void fuzz_draco(const uint8_t *bytes, size_t size);

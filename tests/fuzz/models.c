@@ -22,6 +22,7 @@
 #include "import/obj.h"
 #include "import/retarget.h"
 #include "import/terrain.h"
+#include "import/threemf.h"
 #include "scene/mesh.h"
 
 static lmn_scene *read_at(const char *path, fuzz_reader read, char up, const lmn_load_desc *desc, const uint8_t *bytes,
@@ -407,4 +408,24 @@ void fuzz_draco(const uint8_t *bytes, size_t size)
     mem_free(indices);
     mem_free(values);
     draco_close(model);
+}
+
+/* A model of one object, as assimp hands it over; then what the package says of it. */
+static lmn_status read_package(const import_job *job, lmn_error *error)
+{
+    static const char triangle[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    file_data         file = {.data = (const uint8_t *)triangle, .size = sizeof triangle - 1};
+    import_job        plain = *job;
+    plain.file = &file;
+    lmn_status status = import_obj.read(&plain, error);
+    for (size_t i = 0; i < job->scene->node_count && status == LMN_OK; i++) {
+        mem_free(job->scene->nodes[i].name);
+        job->scene->nodes[i].name = mem_copy_text("Object_1");
+    }
+    return status == LMN_OK ? threemf_describe(job, error) : status;
+}
+
+void fuzz_threemf(const uint8_t *bytes, size_t size)
+{
+    use(fuzz_read_model(read_package, 'z', bytes, size));
 }
