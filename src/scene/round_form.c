@@ -4,7 +4,6 @@
  * widened by what the surface would lose, as far as neighbours lose the same (after Vollmer et al. 1999). Weights
  * depend on triangles alone, so that morphs and places before a projection go along. */
 #include <math.h>
-#include <string.h>
 
 #include "base/groups.h"
 #include "base/memory.h"
@@ -470,10 +469,10 @@ bool round_form_shade(rounding *r)
     vec3 **all = mem_calloc(r->part_count + 1, sizeof *all);
     for (size_t i = 0; i < r->part_count && all && good; i++) {
         const growing *g = &r->parts[i];
-        all[i] = mem_alloc(((size_t)g->made.vertex_count + 1) * sizeof **all);
+        if (!g->made.normals) /* lines */
+            continue;
+        all[i] = mem_copy(g->made.normals, (size_t)g->made.vertex_count * sizeof **all);
         good = all[i] != NULL;
-        if (good && g->made.vertex_count)
-            memcpy(all[i], g->made.normals, g->made.vertex_count * sizeof **all);
         for (uint32_t c = 0; good && c < g->made.index_count; c++) {
             uint32_t v = g->made.indices[c];
             double   own[3], made[3];
@@ -485,7 +484,7 @@ bool round_form_shade(rounding *r)
         }
     }
     for (size_t i = 0; i < r->part_count && all; i++) {
-        if (good) {
+        if (good && all[i]) {
             mem_free(r->parts[i].made.normals);
             r->parts[i].made.normals = all[i];
         } else {

@@ -260,6 +260,25 @@ static void cages_have_no_creases(void **state)
 }
 
 /* Offsets that are a linear map of places still are. */
+/* Lines that lie beside a cage in its mesh have no normals, and get none. */
+static void lines_stay_without_normals(void **state)
+{
+    (void)state;
+    cage         *c = ear(0.03, 0.9);
+    uint32_t      ends[2] = {0, 1};
+    primitive     both[2] = {c->p, {.vertex_count = 2, .positions = c->positions, .lines = ends, .line_count = 1}};
+    round_options options = {PI / 6, 1.0 / 2000, 100000, false, NULL, 0};
+    mesh          m, with = {.primitives = both, .primitive_count = 2};
+    both[1].bounds = c->p.bounds;
+    assert_int_equal(mesh_round(&m, &with, &options, NULL), LMN_OK);
+    assert_int_equal(m.primitive_count, 2);
+    assert_true(m.primitives[0].vertex_count > VERTICES);
+    assert_int_equal(m.primitives[1].vertex_count, 2);
+    assert_null(m.primitives[1].normals);
+    mesh_release(&m);
+    free(c);
+}
+
 static void morphs_go_along(void **state)
 {
     (void)state;
@@ -410,11 +429,11 @@ static void without_memory_it_says_so(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cages_become_smooth),        cmocka_unit_test(cages_keep_their_size),
-        cmocka_unit_test(cages_have_no_creases),      cmocka_unit_test(morphs_go_along),
-        cmocka_unit_test(others_keep_their_vertices), cmocka_unit_test(forms_are_made_alone),
-        cmocka_unit_test(facets_that_are_meant_stay), cmocka_unit_test(limits_leave_cages_whole),
-        cmocka_unit_test(without_memory_it_says_so),
+        cmocka_unit_test(cages_become_smooth),      cmocka_unit_test(cages_keep_their_size),
+        cmocka_unit_test(cages_have_no_creases),    cmocka_unit_test(lines_stay_without_normals),
+        cmocka_unit_test(morphs_go_along),          cmocka_unit_test(others_keep_their_vertices),
+        cmocka_unit_test(forms_are_made_alone),     cmocka_unit_test(facets_that_are_meant_stay),
+        cmocka_unit_test(limits_leave_cages_whole), cmocka_unit_test(without_memory_it_says_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
