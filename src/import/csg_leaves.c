@@ -130,7 +130,7 @@ lmn_status csg_linear_extrude(csg_reader *r, int32_t node, polyhedron *out)
     csg_numbers(t, node, "scale", NONE, how.scale, 2, true);
     double slices = csg_number(t, node, "slices", NONE, 0);
     how.has_slices = slices >= 1;
-    how.slices = slices < 1e6 ? (int)slices : 1000000;
+    how.slices = !how.has_slices ? 0 : slices < 1e6 ? (int)slices : 1000000;
     region     r2 = {0};
     lmn_status status = profile(r, node, &r2);
     if (status == LMN_OK && r2.count > 0)

@@ -86,6 +86,8 @@ static void extrusions_take_their_parameters(void **state)
     (void)state;
     expect_box("linear_extrude(height = 4, center = true) {square(size = 2);}", 0, 0, -2, 2, 2, 2);
     expect_box("linear_extrude() {square(size = 2);}", 0, 0, 0, 2, 2, 100);
+    expect_box("linear_extrude(height = 4, slices = -1e300) {square(size = 2);}", 0, 0, 0, 2, 2,
+               4); /* as if none were said */
     expect_box("linear_extrude(height = 4, scale = [2, 3]) {square(size = 2);}", 0, 0, 0, 4, 6, 4);
     expect_box("linear_extrude(height = 4, scale = 0) {square(size = 2);}", 0, 0, 0, 2, 2, 4);
     expect_box("linear_extrude(height = 4, twist = -90, slices = 3) {square(size = [2, 1]);}", -1, 0, 0, 2,
